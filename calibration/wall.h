@@ -1,0 +1,35 @@
+#pragma once
+// One installation: its eye and its displays.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "calibration/projection.h"
+
+namespace curvewall {
+
+struct Display {
+    std::string name;
+    glm::ivec2 sizePx{0};
+    std::string projectionType;  // as the wall file writes it: "cylinder", "planar", ...
+    ProjectionPtr projection;    // seen from the wall's eye
+};
+
+struct Wall {
+    std::string name;
+    glm::dvec3 eyeM{0};          // in wall coordinates
+    glm::vec3 background{0};     // linear light; shown where nothing is drawn
+    std::vector<Display> displays;
+};
+
+using WallPtr = std::shared_ptr<const Wall>;
+
+// The display of that name, or the first one when the name is empty. Throws UsageError that lists the names.
+const Display& findDisplay(const Wall& wall, std::string_view name);
+
+}  // namespace curvewall

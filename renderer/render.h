@@ -1,0 +1,56 @@
+#pragma once
+// One render, whoever asks for it: the command line and the daemon both come through here.
+
+#include <memory>
+#include <string>
+
+#include "calibration/wall.h"
+#include "renderer/camera.h"
+#include "renderer/frame.h"
+#include "renderer/look.h"
+#include "renderer/scene/scene.h"
+#include "renderer/stats.h"
+
+namespace curvewall {
+
+enum class Method { piecewise, imageBased, reference };
+
+inline constexpr double kDefaultTolerancePx = 0.25;
+
+struct RenderRequest {
+    WallPtr wall;
+    std::string display;  // empty: the wall's first
+    ScenePtr scene;
+    Camera camera;
+    Method method = Method::piecewise;
+    double tolerancePx = kDefaultTolerancePx;  // piecewise
+    int faceSizePx = 0;                        // image-based; 0: from the display's peak pixel density
+    int samples = 1;                           // reference: rays per pixel; raster methods: MSAA samples
+    Style style = Style::textured;
+    OutputKind output = OutputKind::color;
+    bool linearOutput = false;  // colour at float precision (EXR) rather than 8-bit sRGB
+    int frames = 1;             // frame k turns the camera by 360 k / frames degrees
+};
+
+struct RenderResult {
+    Frame frame;  // frame 0
+    RenderStats stats;
+};
+
+// Owns the GL context and what is worth keeping between renders (scenes on the GPU, piece meshes, programs).
+// Use it from one thread. The constructor does not touch OpenGL; the first raster render does, and throws
+// GlUnavailable when there is none.
+class Renderer {
+public:
+    Renderer();
+    ~Renderer();
+
+    // Throws UsageError for what cannot be done.
+    RenderResult render(const RenderRequest& request);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace curvewall
