@@ -5,12 +5,12 @@
 // continuous: (0, 0) is the top left corner of the display, the first pixel's centre is (0.5, 0.5), x grows
 // to the right and y down. Everything is in double precision; no projection knows of OpenGL.
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <memory>
 #include <optional>
 #include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace curvewall {
 

@@ -1,15 +1,15 @@
 #pragma once
 // One installation: its eye and its displays.
 
-#include <memory>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "calibration/projection.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "calibration/projection.h"
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace curvewall {
 
@@ -22,8 +22,8 @@ struct Display {
 
 struct Wall {
     std::string name;
-    glm::dvec3 eyeM{0};          // in wall coordinates
-    glm::vec3 background{0};     // linear light; shown where nothing is drawn
+    glm::dvec3 eyeM{0};       // in wall coordinates
+    glm::vec3 background{0};  // linear light; shown where nothing is drawn
     std::vector<Display> displays;
 };
 

@@ -1,0 +1,22 @@
+#pragma once
+// From a projection and a tolerance to certified pieces.
+
+#include "calibration/certificate.h"
+
+namespace curvewall {
+
+struct FittedPieces {
+    PieceMesh mesh;
+    std::vector<int32_t> owners;  // see ownership.h
+    std::vector<float> errorsPx;  // see certificate.h
+    Certificate certificate;      // its maximum is at most the tolerance
+    double fitMs = 0;
+    double certifyMs = 0;
+};
+
+// The fewest columns and rows, balanced, whose certified maximum is at most `tolerancePx`. Throws UsageError
+// when that would take more than kMostPieces.
+inline constexpr int kMostPieces = 200'000;
+FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx);
+
+}  // namespace curvewall

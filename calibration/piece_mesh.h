@@ -1,0 +1,63 @@
+#pragma once
+// The pieces of one display: a faceted screen seen from the eye.
+//
+// A vertex is a point m (metres, wall axes, eye at the origin) and a screen position s (pixels). A piece is a
+// convex facet over such vertices that maps affinely to the screen, so a ray r lands on the screen by one
+// homography H with H m_i = (s_i, 1). Facets share edges, hence neighbours agree along them whatever the m.
+// The affine camera texture triangles and the cylinder slices of Lorenz and Doellner (2009), section 3, are
+// both facets of this kind.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace curvewall {
+
+// Screen positions are whole multiples of this, so that ownership can be decided in integers.
+inline constexpr double kSnapPx = 1.0 / 256;
+
+// Clipping leaves this much beyond a piece's edges. Neighbours agree there to a small part of the tolerance,
+// and no rounding in the rasterizer can open a gap.
+inline constexpr double kGuardPx = 0.25;
+
+struct PieceVertex {
+    glm::dvec3 m;
+    glm::dvec2 s;
+};
+
+// A triangle or an exact quad, vertices in order around it.
+struct Piece {
+    std::array<uint32_t, 4> vertices{};
+    uint32_t vertexCount = 0;
+    glm::dmat3 screenFromRay{1};  // H: (x, y, w) with w = 1 on the facet; behind the eye w is negative
+};
+
+struct PieceMesh {
+    glm::ivec2 sizePx{0};
+    std::vector<PieceVertex> vertices;
+    std::vector<Piece> pieces;
+};
+
+glm::dvec2 snapToGrid(glm::dvec2 px);
+
+// H of the facet through three vertices.
+glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c);
+
+// True when four vertices, in order around a cell, lie in one plane and map by one affine map to 1e-9 px.
+bool isExactQuad(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c, const PieceVertex& d);
+
+// A grid of (columns + 1) x (rows + 1) vertices, row by row, as pieces: exact quads where the cells allow it,
+// otherwise two triangles a cell.
+PieceMesh meshFromGrid(glm::ivec2 sizePx, std::vector<PieceVertex> vertices, int columns, int rows);
+
+// Planes through the eye that bound a piece, its guard included: dot(plane, ray) >= 0 inside. One an edge.
+std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece);
+
+// Corner rays of the region that edgePlanes bounds.
+std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece);
+
+}  // namespace curvewall
