@@ -1,12 +1,12 @@
 #include "calibration/piece_tree.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
-
-#include <glm/geometric.hpp>
 
 namespace curvewall {
 namespace {
@@ -41,8 +41,9 @@ private:
             nodes_[self].planes = boundingPlanes(pieces);
             const auto middle = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
             const int axis = longerAxis(pieces);
-            std::nth_element(pieces.begin(), middle, pieces.end(),
-                             [&](uint32_t a, uint32_t b) { return screenCentre(a)[axis] < screenCentre(b)[axis]; });
+            std::nth_element(pieces.begin(), middle, pieces.end(), [&](uint32_t a, uint32_t b) {
+                return screenCentre(a)[axis] < screenCentre(b)[axis];
+            });
             add({pieces.begin(), middle});
             add({middle, pieces.end()});
         }
@@ -65,7 +66,8 @@ private:
         return most.x - least.x >= most.y - least.y ? 0 : 1;
     }
 
-    // The box around the corners in the plane at distance one along the mean direction, as planes through the eye.
+    // The box around the corners in the plane at distance one along the mean direction, as planes through the
+    // eye.
     std::array<glm::dvec3, 4> boundingPlanes(std::span<const uint32_t> pieces) const {
         glm::dvec3 axis(0);
         for (uint32_t index : pieces)

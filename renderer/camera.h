@@ -1,10 +1,10 @@
 #pragma once
 // Where the wall stands in the scene: the pose of the wall's origin.
 
+#include "calibration/pose.h"
+
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-
-#include "calibration/pose.h"
 
 namespace curvewall {
 

@@ -1,15 +1,15 @@
 #pragma once
 // A rendered picture in memory.
 
-#include <vector>
-
 #include <glm/vec2.hpp>
+
+#include <vector>
 
 namespace curvewall {
 
 // Row 0 is the top row; texels are interleaved. Colour has 3 channels in linear light, depth 1 (metres from
-// the eye, infinity where nothing is drawn), coverage 1 (fragments), position 3 (metres, eye-relative, wall axes,
-// NaN where nothing is drawn).
+// the eye, infinity where nothing is drawn), coverage 1 (fragments), position 3 (metres, eye-relative, wall
+// axes, NaN where nothing is drawn).
 struct Frame {
     glm::ivec2 sizePx{0};
     int channels = 0;

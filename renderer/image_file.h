@@ -1,12 +1,12 @@
 #pragma once
 // Frames to and from image files and encoded bytes. The only place that knows OpenImageIO.
 
+#include "renderer/frame.h"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "renderer/frame.h"
 
 namespace curvewall {
 

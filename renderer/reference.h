@@ -2,13 +2,13 @@
 // The truth that the other methods are judged by: exact rays through Embree, one per sample.
 // It shares nothing with the raster methods but Projection, the scene's texels and the shading formula.
 
-#include <memory>
-
 #include "calibration/wall.h"
 #include "renderer/camera.h"
 #include "renderer/frame.h"
 #include "renderer/look.h"
 #include "renderer/scene/scene.h"
+
+#include <memory>
 
 namespace curvewall {
 

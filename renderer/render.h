@@ -1,15 +1,15 @@
 #pragma once
 // One render, whoever asks for it: the command line and the daemon both come through here.
 
-#include <memory>
-#include <string>
-
 #include "calibration/wall.h"
 #include "renderer/camera.h"
 #include "renderer/frame.h"
 #include "renderer/look.h"
 #include "renderer/scene/scene.h"
 #include "renderer/stats.h"
+
+#include <memory>
+#include <string>
 
 namespace curvewall {
 

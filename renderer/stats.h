@@ -1,11 +1,11 @@
 #pragma once
 // What a render did and what it cost, as `--stats` and the Curvewall-Stats header report it.
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace curvewall {
 
@@ -17,21 +17,21 @@ struct GeometricError {
 
 struct RenderStats {
     std::string method;
-    std::string engine;          // "compute", "plain" (one piece: one plain draw), "cube", "embree"
-    double tolerancePx = 0;      // piecewise
+    std::string engine;      // "compute", "plain" (one piece: one plain draw), "cube", "embree"
+    double tolerancePx = 0;  // piecewise
     GeometricError geometricError;
     int pieces = 0;
-    int faceSizePx = 0;          // image-based
-    int faces = 0;               // image-based: cube faces that the display sees
-    uint64_t triangles = 0;      // in the scene
-    uint64_t pairs = 0;          // (triangle, piece) pairs drawn in frame 0
+    int faceSizePx = 0;      // image-based
+    int faces = 0;           // image-based: cube faces that the display sees
+    uint64_t triangles = 0;  // in the scene
+    uint64_t pairs = 0;      // (triangle, piece) pairs drawn in frame 0
     int samples = 1;
     int frames = 1;
     double frameMsMedian = 0;
     double frameMsMin = 0;
     double frameMsMax = 0;
-    double prepareMs = 0;        // fitting, certifying, upload, compilation: once, outside the frames
-    std::string glRenderer;      // empty for the reference
+    double prepareMs = 0;    // fitting, certifying, upload, compilation: once, outside the frames
+    std::string glRenderer;  // empty for the reference
     double peakMemoryMib = 0;
 
     double replicationRatio() const {

@@ -1,12 +1,12 @@
 #include "renderer/gl/egl_context.h"
 
-#include <array>
-#include <cstdlib>
-#include <vector>
-
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <spdlog/spdlog.h>
+
+#include <array>
+#include <cstdlib>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -35,13 +35,15 @@ std::vector<EGLDisplay> candidateDisplays() {
             EGLDeviceEXT device = devices[static_cast<size_t>(i)];
             const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
             const bool isSoftware =
-                extensions && std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos;
+                extensions &&
+                std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos;
             (isSoftware ? software : hardware)
                 .push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
         }
     }
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-        hardware.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+        hardware.push_back(
+            eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
     hardware.insert(hardware.end(), software.begin(), software.end());
     return hardware;
 }
@@ -51,7 +53,8 @@ EGLContext createCoreContext(EGLDisplay display) {
                                                      EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint configs = 0;
-    if (!eglChooseConfig(display, configAttributes.data(), &config, 1, &configs) || configs == 0) return EGL_NO_CONTEXT;
+    if (!eglChooseConfig(display, configAttributes.data(), &config, 1, &configs) || configs == 0)
+        return EGL_NO_CONTEXT;
     constexpr std::array<EGLint, 9> contextAttributes{EGL_CONTEXT_MAJOR_VERSION,
                                                       4,
                                                       EGL_CONTEXT_MINOR_VERSION,
@@ -99,7 +102,8 @@ EglContext::EglContext() : handles_(std::make_unique<Handles>()) {
         if (!current) current = handles_->makeCurrent(display);
     if (!current)
         throw GlUnavailable(
-            "no OpenGL 4.5 core context could be made through EGL; install a driver, for example the Debian packages "
+            "no OpenGL 4.5 core context could be made through EGL; install a driver, for example the Debian "
+            "packages "
             "libegl1, libegl-mesa0 and libgl1-mesa-dri");
     rendererName_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     if (kDebugContext) {

@@ -13,8 +13,9 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// A core context, current on the thread that makes it until it is destroyed. A hardware EGL device is preferred;
-// without one, Mesa's surfaceless platform (llvmpipe). Debug builds ask for a debug context and abort on an OpenGL error.
+// A core context, current on the thread that makes it until it is destroyed. A hardware EGL device is
+// preferred; without one, Mesa's surfaceless platform (llvmpipe). Debug builds ask for a debug context and
+// abort on an OpenGL error.
 class EglContext {
 public:
     EglContext();  // throws GlUnavailable

@@ -1,9 +1,9 @@
 #pragma once
 // Owners of OpenGL names.
 
-#include <utility>
-
 #include <epoxy/gl.h>
+
+#include <utility>
 
 namespace curvewall {
 

@@ -10,7 +10,8 @@ GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags) {
     GLuint id = 0;
     glCreateBuffers(1, &id);
     GlBuffer buffer(id);
-    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max<size_t>(size, 4)), size == 0 ? nullptr : bytes, flags);
+    glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max<size_t>(size, 4)), size == 0 ? nullptr : bytes,
+                         flags);
     return buffer;
 }
 
@@ -37,7 +38,8 @@ GlFramebuffer makeFramebuffer() {
 void requireComplete(const GlFramebuffer& framebuffer) {
     const GLenum status = glCheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("OpenGL cannot render to this framebuffer (status " + std::to_string(status) + ")");
+        throw std::runtime_error("OpenGL cannot render to this framebuffer (status " +
+                                 std::to_string(status) + ")");
 }
 
 }  // namespace curvewall

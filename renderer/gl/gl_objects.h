@@ -1,16 +1,16 @@
 #pragma once
 // Making OpenGL objects in one line each.
 
-#include <span>
+#include "renderer/gl/gl_handle.h"
 
 #include <glm/vec2.hpp>
 
-#include "renderer/gl/gl_handle.h"
+#include <span>
 
 namespace curvewall {
 
-// Immutable storage; `bytes` may be empty of data (nullptr) to reserve `size` bytes. A buffer of no bytes gets four,
-// since OpenGL has no empty storage.
+// Immutable storage; `bytes` may be empty of data (nullptr) to reserve `size` bytes. A buffer of no bytes
+// gets four, since OpenGL has no empty storage.
 GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags = 0);
 
 template <class T>

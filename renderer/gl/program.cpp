@@ -1,10 +1,10 @@
 #include "renderer/gl/program.h"
 
+#include "renderer/gl/shader_files.h"
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
-
-#include "renderer/gl/shader_files.h"
 
 namespace curvewall {
 namespace {
@@ -21,7 +21,8 @@ std::string expandIncludes(std::string_view text) {
         constexpr std::string_view kInclude = "#include \"";
         if (line.starts_with(kInclude)) {
             const std::string_view file = line.substr(kInclude.size(), line.rfind('"') - kInclude.size());
-            out += "#line 1\n" + expandIncludes(shaderText(file)) + "#line " + std::to_string(lineNumber + 1) + "\n";
+            out += "#line 1\n" + expandIncludes(shaderText(file)) + "#line " +
+                   std::to_string(lineNumber + 1) + "\n";
         } else {
             out.append(line).append("\n");
         }
@@ -39,9 +40,13 @@ std::string logOf(GLuint id) {
 }
 
 void getShader(GLuint id, GLenum name, GLint* value) { glGetShaderiv(id, name, value); }
-void getShaderLog(GLuint id, GLsizei size, GLsizei* length, GLchar* log) { glGetShaderInfoLog(id, size, length, log); }
+void getShaderLog(GLuint id, GLsizei size, GLsizei* length, GLchar* log) {
+    glGetShaderInfoLog(id, size, length, log);
+}
 void getProgram(GLuint id, GLenum name, GLint* value) { glGetProgramiv(id, name, value); }
-void getProgramLog(GLuint id, GLsizei size, GLsizei* length, GLchar* log) { glGetProgramInfoLog(id, size, length, log); }
+void getProgramLog(GLuint id, GLsizei size, GLsizei* length, GLchar* log) {
+    glGetProgramInfoLog(id, size, length, log);
+}
 
 GlShader compile(const ShaderStage& stage, const std::vector<std::string>& defines) {
     std::string header = "#version 450 core\n#define SHARED_FN\n";
@@ -56,7 +61,8 @@ GlShader compile(const ShaderStage& stage, const std::vector<std::string>& defin
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (!compiled)
-        throw std::runtime_error("shaders/" + std::string(stage.file) + ": " + logOf<getShader, getShaderLog>(shader.id()));
+        throw std::runtime_error("shaders/" + std::string(stage.file) + ": " +
+                                 logOf<getShader, getShaderLog>(shader.id()));
     return shader;
 }
 
@@ -85,7 +91,8 @@ GlProgram makeProgram(std::initializer_list<ShaderStage> stages, const std::vect
     glLinkProgram(program.id());
     GLint linked = GL_FALSE;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-    if (!linked) throw std::runtime_error("linking" + files + ": " + logOf<getProgram, getProgramLog>(program.id()));
+    if (!linked)
+        throw std::runtime_error("linking" + files + ": " + logOf<getProgram, getProgramLog>(program.id()));
     return program;
 }
 

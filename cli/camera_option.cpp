@@ -1,0 +1,42 @@
+#include "cli/camera_option.h"
+
+#include "calibration/errors.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace curvewall {
+namespace {
+
+// Every number between the commas, or nothing when one of them is none.
+std::vector<double> numbersIn(const std::string& text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        double number = 0;
+        const auto [after, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || !std::isfinite(number)) return {};
+        numbers.push_back(number);
+        if (after == end) return numbers;
+        if (*after != ',') return {};
+        at = after + 1;
+    }
+}
+
+}  // namespace
+
+Camera cameraFromText(const std::string& text) {
+    std::vector<double> numbers = numbersIn(text);
+    if (numbers.size() < 3 || numbers.size() > 6)
+        throw UsageError("--camera: expected x,y,z[,yaw,pitch,roll] in metres and degrees, found \"" + text +
+                         "\"");
+    numbers.resize(6, 0);
+    constexpr double kRadFromDeg = std::numbers::pi / 180;
+    return {{numbers[0], numbers[1], numbers[2]},
+            {numbers[3] * kRadFromDeg, numbers[4] * kRadFromDeg, numbers[5] * kRadFromDeg}};
+}
+
+}  // namespace curvewall

@@ -1,0 +1,24 @@
+#include "cli/display_paths.h"
+
+#include <filesystem>
+
+namespace curvewall {
+
+std::string pathForDisplay(const std::string& path, const std::string& display, bool severalDisplays) {
+    constexpr std::string_view kPlaceholder = "{display}";
+    if (const size_t at = path.find(kPlaceholder); at != std::string::npos)
+        return std::string(path).replace(at, kPlaceholder.size(), display);
+    if (path.empty() || !severalDisplays) return path;
+    std::filesystem::path named(path);
+    named.replace_filename(named.stem().string() + "-" + display + named.extension().string());
+    return named.string();
+}
+
+std::vector<const Display*> chosenDisplays(const Wall& wall, const std::string& name) {
+    if (!name.empty()) return {&findDisplay(wall, name)};
+    std::vector<const Display*> all;
+    for (const Display& display : wall.displays) all.push_back(&display);
+    return all;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,131 @@
+// curvewall inspect
+
+#include "calibration/piece_drawing.h"
+#include "calibration/piece_fit.h"
+#include "calibration/wall_reader.h"
+#include "cli/commands.h"
+#include "cli/display_paths.h"
+#include "renderer/image_file.h"
+#include "renderer/render.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <memory>
+#include <string>
+
+namespace curvewall {
+namespace {
+
+using nlohmann::json;
+
+struct InspectCommand {
+    std::string wall, display, errorMap, pieces, rays;
+    double tolerancePx = kDefaultTolerancePx;
+    bool asJson = false;
+};
+
+json reportOf(const Display& display, double tolerancePx, const FittedPieces& fitted) {
+    const Certificate& certificate = fitted.certificate;
+    return {{"name", display.name},
+            {"size", {display.sizePx.x, display.sizePx.y}},
+            {"projection", display.projectionType},
+            {"assumptions", json::array()},  // a wall file leaves nothing to assume
+            {"tolerance_px", tolerancePx},
+            {"pieces", fitted.mesh.pieces.size()},
+            {"geometric_error_px",
+             {{"max", certificate.maxPx},
+              {"p99", certificate.p99Px},
+              {"mean", certificate.meanPx},
+              {"max_at", {certificate.maxAt.x, certificate.maxAt.y}}}},
+            {"uncovered_pixels", certificate.uncoveredPixels},
+            {"holes", certificate.holes},
+            {"fit_ms", fitted.fitMs},
+            {"certify_ms", fitted.certifyMs}};
+}
+
+void printReport(const Display& display, double tolerancePx, const FittedPieces& fitted) {
+    const Certificate& c = fitted.certificate;
+    fmt::print("{}: {} x {} px, {}\n", display.name, display.sizePx.x, display.sizePx.y,
+               display.projectionType);
+    fmt::print("  {} pieces for a tolerance of {} px, fitted in {:.0f} ms\n", fitted.mesh.pieces.size(),
+               tolerancePx, fitted.fitMs);
+    fmt::print(
+        "  geometric error over every pixel: {:.4f} px at most (at {}, {}), 99 % below {:.4f}, mean {:.4f}\n",
+        c.maxPx, c.maxAt.x, c.maxAt.y, c.p99Px, c.meanPx);
+    fmt::print("  {} pixels without a piece, {} holes\n", c.uncoveredPixels, c.holes);
+}
+
+Frame errorFrame(const Display& display, const FittedPieces& fitted) {
+    return {display.sizePx, 1, fitted.errorsPx};
+}
+
+// The unit ray of every pixel centre, NaN in holes.
+Frame rayFrame(const Display& display) {
+    Frame frame{display.sizePx, 3, {}};
+    for (int y = 0; y < display.sizePx.y; ++y) {
+        for (int x = 0; x < display.sizePx.x; ++x) {
+            const auto ray = display.projection->unproject({x + 0.5, y + 0.5});
+            const glm::dvec3 unit =
+                ray ? glm::normalize(*ray) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+            for (int i = 0; i < 3; ++i) frame.texels.push_back(static_cast<float>(unit[i]));
+        }
+    }
+    return frame;
+}
+
+void writePieces(const std::string& path, const PieceMesh& mesh) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension != ".json" && extension != ".svg")
+        throw UsageError("--pieces: expected a .json or .svg file, found \"" + path + "\"");
+    std::ofstream file(path);
+    file << (extension == ".json" ? piecesAsJson(mesh).dump(1) : piecesAsSvg(mesh)) << "\n";
+    if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+void run(const InspectCommand& command) {
+    const Wall wall = readWall(command.wall);
+    const std::vector<const Display*> displays = chosenDisplays(wall, command.display);
+    json report = {{"wall", wall.name}, {"displays", json::array()}};
+    for (const Display* display : displays) {
+        const auto path = [&](const std::string& option) {
+            return pathForDisplay(option, display->name, displays.size() > 1);
+        };
+        const FittedPieces fitted = fitPieces(*display->projection, display->sizePx, command.tolerancePx);
+        if (!command.errorMap.empty()) writeFrame(path(command.errorMap), errorFrame(*display, fitted));
+        if (!command.rays.empty()) writeFrame(path(command.rays), rayFrame(*display), OutputKind::position);
+        if (!command.pieces.empty()) writePieces(path(command.pieces), fitted.mesh);
+        if (command.asJson)
+            report["displays"].push_back(reportOf(*display, command.tolerancePx, fitted));
+        else
+            printReport(*display, command.tolerancePx, fitted);
+    }
+    if (command.asJson) fmt::print("{}\n", report.dump(2));
+}
+
+}  // namespace
+
+void addInspectCommand(CLI::App& app) {
+    auto command = std::make_shared<InspectCommand>();
+    CLI::App* inspect = app.add_subcommand("inspect", "Fit the pieces of a wall and certify their error");
+    const CLI::Validator exrFile(
+        [](std::string& path) { return path.ends_with(".exr") ? "" : "expected an .exr file"; }, "");
+    inspect->add_option("WALL", command->wall, "Wall file")->required();
+    inspect->add_option("--display", command->display, "Display of the wall; all of them without it");
+    inspect->add_option("--tolerance", command->tolerancePx, "Largest geometric error, pixels")
+        ->check(CLI::Range(0.001, 100.0))
+        ->capture_default_str();
+    inspect->add_flag("--json", command->asJson, "Report as JSON");
+    inspect
+        ->add_option("--error-map", command->errorMap, "Error of every pixel in pixels, .exr, NaN in holes")
+        ->check(exrFile);
+    inspect->add_option("--pieces", command->pieces,
+                        "The pieces: .json (vertices and pieces) or .svg (a drawing)");
+    inspect->add_option("--rays", command->rays, "Unit ray of every pixel centre, .exr, NaN in holes")
+        ->check(exrFile);
+    inspect->callback([command] { run(*command); });
+}
+
+}  // namespace curvewall

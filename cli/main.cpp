@@ -1,0 +1,55 @@
+// curvewall: one executable, one subcommand a job.
+
+#include "calibration/errors.h"
+#include "cli/commands.h"
+#include "renderer/gl/egl_context.h"
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <iostream>
+
+namespace {
+
+constexpr int kUsageExit = 2;
+
+int runSubcommand(int argc, char** argv) {
+    CLI::App app("Renders 3D scenes straight into the image that a curved wall needs.", "curvewall");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "curvewall 0.1.0");
+    curvewall::addRenderCommand(app);
+    curvewall::addInspectCommand(app);
+    curvewall::addServeCommand(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // Help and version end here too, with success.
+        return app.exit(error) == 0 ? 0 : kUsageExit;
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // Pictures and numbers go to stdout, everything that is said about them to stderr.
+    spdlog::set_default_logger(spdlog::stderr_color_mt("curvewall"));
+    spdlog::set_pattern("curvewall: %^%l%$: %v");
+    try {
+        return runSubcommand(argc, argv);
+    } catch (const curvewall::UsageError& error) {
+        spdlog::error(error.what());
+        return kUsageExit;
+    } catch (const curvewall::InputError& error) {
+        spdlog::error(error.what());
+        return 3;
+    } catch (const curvewall::GlUnavailable& error) {
+        spdlog::error(error.what());
+        return 4;
+    } catch (const std::exception& error) {
+        spdlog::error(error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,133 @@
+// curvewall render
+
+#include "calibration/errors.h"
+#include "calibration/wall_reader.h"
+#include "cli/camera_option.h"
+#include "cli/commands.h"
+#include "cli/display_paths.h"
+#include "renderer/image_file.h"
+#include "renderer/names.h"
+#include "renderer/render.h"
+#include "renderer/scene/load_scene.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+
+namespace curvewall {
+namespace {
+
+struct RenderCommand {
+    std::string wall, display, scene, camera, method = "piecewise", engine = "compute", style = "textured",
+                                              outputKind = "color", out, stats;
+    double tolerancePx = kDefaultTolerancePx;
+    int samples = 1, faceSizePx = 0, frames = 1;
+};
+
+RenderRequest requestOf(const RenderCommand& command) {
+    RenderRequest request;
+    request.method = methodFromName(command.method).value();
+    request.style = styleFromName(command.style).value();
+    request.output = outputKindFromName(command.outputKind).value();
+    request.tolerancePx = command.tolerancePx;
+    request.samples = command.samples;
+    request.faceSizePx = command.faceSizePx;
+    request.frames = command.frames;
+    if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
+    if (command.out.empty()) return request;
+    const ImageFormat format = imageFormatFromPath(command.out);
+    request.linearOutput = format == ImageFormat::exr;
+    if (request.output != OutputKind::color && format != ImageFormat::exr)
+        throw UsageError("--output-kind " + command.outputKind + " needs an .exr file, not " + command.out);
+    return request;
+}
+
+void writeStats(const std::string& path, const RenderStats& stats) {
+    std::ofstream file(path);
+    file << toJson(stats).dump(2) << "\n";
+    if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+void report(const Display& display, const RenderStats& stats, const std::string& out) {
+    fmt::print("{}: {}, {} pieces, error {:.4f} px at most, {:.2f} pairs a triangle, {:.1f} ms a frame{}\n",
+               display.name, stats.method, stats.pieces, stats.geometricError.maxPx, stats.replicationRatio(),
+               stats.frameMsMedian, out.empty() ? "" : " -> " + out);
+}
+
+void run(const RenderCommand& command) {
+    RenderRequest request = requestOf(command);
+    request.wall = std::make_shared<const Wall>(readWall(command.wall));
+    const std::vector<const Display*> displays = chosenDisplays(*request.wall, command.display);
+    request.scene = std::make_shared<const Scene>(loadScene(command.scene));
+    for (const std::string& note : request.scene->notes) spdlog::warn("{}: {}", command.scene, note);
+    if (command.camera.empty()) request.camera = request.scene->defaultCamera;
+
+    Renderer renderer;
+    for (const Display* display : displays) {
+        request.display = display->name;
+        const RenderResult result = renderer.render(request);
+        const std::string out = pathForDisplay(command.out, display->name, displays.size() > 1);
+        const std::string stats = pathForDisplay(command.stats, display->name, displays.size() > 1);
+        if (!out.empty()) writeFrame(out, result.frame, request.output);
+        if (!stats.empty()) writeStats(stats, result.stats);
+        report(*display, result.stats, out);
+    }
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app) {
+    auto command = std::make_shared<RenderCommand>();
+    CLI::App* render = app.add_subcommand("render", "Render a scene for a wall, into image files");
+    const auto oneOf = [](auto parse, const std::string& names) {
+        return CLI::Validator([=](std::string& text) { return parse(text) ? "" : "expected " + names; }, "");
+    };
+    render->add_option("WALL", command->wall, "Wall file")->required();
+    render->add_option("--display", command->display, "Display of the wall; all of them without it");
+    render
+        ->add_option("--scene", command->scene, "A .gltf, .glb or .obj file, city[:triangles[:seed]] or room")
+        ->required();
+    render->add_option("--camera", command->camera,
+                       "Pose of the wall in the scene, x,y,z[,yaw,pitch,roll] in metres and degrees");
+    render->add_option("--method", command->method, methodNames())
+        ->check(oneOf(methodFromName, methodNames()))
+        ->capture_default_str();
+    render->add_option("--engine", command->engine, "How piecewise replicates triangles: compute")
+        ->check(CLI::IsMember({"compute"}))
+        ->capture_default_str();
+    render->add_option("--tolerance", command->tolerancePx, "Largest geometric error of piecewise, pixels")
+        ->check(CLI::Range(0.001, 100.0))
+        ->capture_default_str();
+    render->add_option("--samples", command->samples, "Rays a pixel (reference) or MSAA samples (piecewise)")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    render
+        ->add_option("--face-size", command->faceSizePx,
+                     "Cube face size of image-based, pixels; 0: from the display's densest place")
+        ->check(CLI::Range(0, 8192))
+        ->capture_default_str();
+    render->add_option("--style", command->style, styleNames())
+        ->check(oneOf(styleFromName, styleNames()))
+        ->capture_default_str();
+    render
+        ->add_option("--output-kind", command->outputKind,
+                     outputKindNames() + "; all but color need an .exr file")
+        ->check(oneOf(outputKindFromName, outputKindNames()))
+        ->capture_default_str();
+    render
+        ->add_option("--frames", command->frames,
+                     "Frames to measure; frame k turns the camera by 360 k / N degrees")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    render->add_option("--out", command->out,
+                       "Picture of frame 0: .png, .jpg or .exr; {display} is replaced");
+    render->add_option("--stats", command->stats, "Statistics as JSON; {display} is replaced");
+    render->callback([command] { run(*command); });
+}
+
+}  // namespace curvewall

@@ -1,0 +1,133 @@
+#include "renderer/frame_target.h"
+
+#include "calibration/errors.h"
+#include "renderer/image_file.h"
+
+#include <array>
+#include <limits>
+#include <string>
+
+namespace curvewall {
+namespace {
+
+GlRenderbuffer makeRenderbuffer(GLenum format, glm::ivec2 sizePx, int samples) {
+    GLuint id = 0;
+    glCreateRenderbuffers(1, &id);
+    GlRenderbuffer buffer(id);
+    glNamedRenderbufferStorageMultisample(id, samples > 1 ? samples : 0, format, sizePx.x, sizePx.y);
+    return buffer;
+}
+
+void requireSamples(int samples) {
+    GLint most = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &most);
+    if (samples > most)
+        throw UsageError("this OpenGL has at most " + std::to_string(most) + " samples a pixel, not " +
+                         std::to_string(samples));
+}
+
+std::array<float, 4> nothing(OutputKind output, glm::vec3 background) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    switch (output) {
+        case OutputKind::color:
+            return {background.r, background.g, background.b, 1};
+        case OutputKind::depth:
+            return {kInfinity, 0, 0, 1};
+        case OutputKind::coverage:
+            return {0, 0, 0, 1};
+        case OutputKind::position:
+            return {kNan, kNan, kNan, 1};
+    }
+    return {};
+}
+
+}  // namespace
+
+GLenum internalFormatOf(TargetFormat format) {
+    switch (format.output) {
+        case OutputKind::color:
+            return format.linear ? GL_RGBA32F : GL_SRGB8_ALPHA8;
+        case OutputKind::position:
+            return GL_RGBA32F;
+        case OutputKind::depth:
+        case OutputKind::coverage:
+            return GL_R32F;
+    }
+    return GL_RGBA32F;
+}
+
+int channelsOf(OutputKind output) {
+    return output == OutputKind::color || output == OutputKind::position ? 3 : 1;
+}
+
+FrameTarget::FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples)
+    : sizePx_(sizePx), format_(format), texture_(makeTexture2D(internalFormatOf(format), sizePx)) {
+    requireSamples(samples);
+    depth_ = makeRenderbuffer(GL_DEPTH_COMPONENT32F, sizePx, samples);
+    framebuffer_ = makeFramebuffer();
+    glNamedFramebufferTexture(framebuffer_.id(), GL_COLOR_ATTACHMENT0, texture_.id(), 0);
+    if (samples > 1) {
+        multisampleColor_ = makeRenderbuffer(internalFormatOf(format), sizePx, samples);
+        drawFramebuffer_ = makeFramebuffer();
+        glNamedFramebufferRenderbuffer(drawFramebuffer_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                       multisampleColor_.id());
+    }
+    const GlFramebuffer& drawn = samples > 1 ? drawFramebuffer_ : framebuffer_;
+    glNamedFramebufferRenderbuffer(drawn.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+    requireComplete(drawn);
+}
+
+void FrameTarget::begin(glm::vec3 background) const {
+    const GLuint drawn = drawFramebuffer_ ? drawFramebuffer_.id() : framebuffer_.id();
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn);
+    glViewport(0, 0, sizePx_.x, sizePx_.y);
+    clearTarget(drawn, format_.output, background);
+    setSceneState(format_.output);
+}
+
+void FrameTarget::end() const {
+    if (!drawFramebuffer_) return;
+    glBlitNamedFramebuffer(drawFramebuffer_.id(), framebuffer_.id(), 0, 0, sizePx_.x, sizePx_.y, 0, 0,
+                           sizePx_.x, sizePx_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Frame FrameTarget::read() const {
+    Frame frame{sizePx_, channelsOf(format_.output), {}};
+    const size_t count =
+        static_cast<size_t>(sizePx_.x) * static_cast<size_t>(sizePx_.y) * static_cast<size_t>(frame.channels);
+    frame.texels.resize(count);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    const GLenum layout = frame.channels == 3 ? GL_RGB : GL_RED;
+    if (internalFormatOf(format_) == GL_SRGB8_ALPHA8) {
+        std::vector<uint8_t> bytes(count);
+        glGetTextureImage(texture_.id(), 0, layout, GL_UNSIGNED_BYTE, static_cast<GLsizei>(count),
+                          bytes.data());
+        for (size_t i = 0; i < count; ++i) frame.texels[i] = linearFromSrgbByte(bytes[i]);
+    } else {
+        glGetTextureImage(texture_.id(), 0, layout, GL_FLOAT, static_cast<GLsizei>(count * sizeof(float)),
+                          frame.texels.data());
+    }
+    return frame;
+}
+
+void setSceneState(OutputKind output) {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_CULL_FACE);
+    glDepthFunc(GL_GREATER);
+    const bool counts = output == OutputKind::coverage;
+    (counts ? glDisable : glEnable)(GL_DEPTH_TEST);
+    (counts ? glEnable : glDisable)(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+}
+
+void clearTarget(GLuint framebuffer, OutputKind output, glm::vec3 background) {
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glDepthMask(GL_TRUE);
+    const float far = 0;
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, nothing(output, background).data());
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+}
+
+}  // namespace curvewall

@@ -1,0 +1,54 @@
+#pragma once
+// The framebuffer that a frame is drawn into, and the way back to memory.
+
+#include "renderer/frame.h"
+#include "renderer/gl/gl_objects.h"
+#include "renderer/look.h"
+
+#include <glm/vec3.hpp>
+
+namespace curvewall {
+
+// What the texels of an output hold.
+struct TargetFormat {
+    OutputKind output = OutputKind::color;
+    bool linear = false;  // colour in float rather than 8-bit sRGB
+
+    bool operator==(const TargetFormat&) const = default;
+};
+
+GLenum internalFormatOf(TargetFormat format);
+int channelsOf(OutputKind output);
+
+// Row 0 of the framebuffer is the picture's top row. Colour is blended, resolved and cleared in linear light.
+class FrameTarget {
+public:
+    // With samples > 1 the frame is drawn multisampled and resolved. Throws UsageError when the driver
+    // cannot.
+    FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples);
+
+    // Binds, clears to the background or to the output's "nothing", and sets the state for drawing a scene.
+    void begin(glm::vec3 background) const;
+    // Resolves the samples, where there are any.
+    void end() const;
+
+    // Waits for the GPU. Never within a frame.
+    Frame read() const;
+
+    glm::ivec2 sizePx() const { return sizePx_; }
+    const GlTexture& texture() const { return texture_; }
+
+private:
+    glm::ivec2 sizePx_;
+    TargetFormat format_;
+    GlTexture texture_;
+    GlRenderbuffer depth_, multisampleColor_;
+    GlFramebuffer framebuffer_, drawFramebuffer_;  // the second only where there are samples to resolve
+};
+
+// The state that every scene pass starts from: reversed depth, no culling, additive for coverage.
+void setSceneState(OutputKind output);
+// Clears the bound framebuffer's colour and depth.
+void clearTarget(GLuint framebuffer, OutputKind output, glm::vec3 background);
+
+}  // namespace curvewall

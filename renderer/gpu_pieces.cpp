@@ -1,0 +1,86 @@
+#include "renderer/gpu_pieces.h"
+
+#include "calibration/piece_tree.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+
+namespace curvewall {
+namespace {
+
+struct GpuConeNode {
+    glm::vec4 planes[4];
+    glm::uvec4 link;
+};
+static_assert(sizeof(GpuConeNode) == 80);
+
+bool isOnBorder(glm::dvec2 a, glm::dvec2 b, glm::dvec2 size) {
+    for (int axis = 0; axis < 2; ++axis)
+        if (a[axis] == b[axis] && (a[axis] <= 0 || a[axis] >= size[axis])) return true;
+    return false;
+}
+
+// Edge planes that the display's own border does not already clip by.
+std::vector<glm::dvec3> innerEdgePlanes(const PieceMesh& mesh, const Piece& piece) {
+    const std::vector<glm::dvec3> all = edgePlanes(mesh, piece);
+    std::vector<glm::dvec3> inner;
+    for (uint32_t i = 0; i < piece.vertexCount; ++i) {
+        const glm::dvec2 from = mesh.vertices[piece.vertices[i]].s;
+        const glm::dvec2 to = mesh.vertices[piece.vertices[(i + 1) % piece.vertexCount]].s;
+        if (!isOnBorder(from, to, mesh.sizePx)) inner.push_back(all[i]);
+    }
+    return inner;
+}
+
+std::vector<glm::vec4> pieceRows(const PieceMesh& mesh, size_t clipPlanes) {
+    // Pixels to clip space; the picture's row 0 is the framebuffer's row 0, so that nothing is ever flipped.
+    const glm::dmat3 clipFromScreen(2.0 / mesh.sizePx.x, 0, 0, 0, 2.0 / mesh.sizePx.y, 0, -1, -1, 1);
+    std::vector<glm::vec4> rows;
+    for (const Piece& piece : mesh.pieces) {
+        const glm::dmat3 transposed = glm::transpose(clipFromScreen * piece.screenFromRay);
+        for (int i = 0; i < 3; ++i) rows.emplace_back(glm::vec3(transposed[i]), 0);
+        const std::vector<glm::dvec3> planes = innerEdgePlanes(mesh, piece);
+        // A piece with fewer inner edges repeats one, or has none and clips by w > 0.
+        for (size_t i = 0; i < clipPlanes; ++i)
+            rows.emplace_back(
+                glm::vec3(planes.empty() ? transposed[2] : planes[std::min(i, planes.size() - 1)]), 0);
+    }
+    return rows;
+}
+
+std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
+    std::vector<GpuConeNode> nodes;
+    for (const ConeNode& node : buildPieceTree(mesh)) {
+        GpuConeNode& gpu = nodes.emplace_back();
+        for (size_t i = 0; i < 4; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
+        gpu.link = {node.next, static_cast<uint32_t>(node.piece), 0, 0};
+    }
+    return nodes;
+}
+
+}  // namespace
+
+GpuPieces uploadPieces(const PieceMesh& mesh) {
+    GpuPieces gpu;
+    gpu.sizePx = mesh.sizePx;
+    gpu.pieceCount = static_cast<int>(mesh.pieces.size());
+    for (const Piece& piece : mesh.pieces)
+        gpu.clipPlanes = std::max(gpu.clipPlanes, static_cast<int>(innerEdgePlanes(mesh, piece).size()));
+    gpu.frontIsClockwise = glm::determinant(mesh.pieces.front().screenFromRay) > 0;
+    gpu.pieces = makeBuffer(std::span<const glm::vec4>(pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes))));
+    const std::vector<GpuConeNode> nodes = gpuNodes(mesh);
+    gpu.nodeCount = static_cast<uint32_t>(nodes.size());
+    gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
+    return gpu;
+}
+
+GlTexture uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
+    GlTexture texture = makeTexture2D(GL_R32I, sizePx);
+    glTextureSubImage2D(texture.id(), 0, 0, 0, sizePx.x, sizePx.y, GL_RED_INTEGER, GL_INT, owners.data());
+    return texture;
+}
+
+}  // namespace curvewall

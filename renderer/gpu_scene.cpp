@@ -1,0 +1,174 @@
+#include "renderer/gpu_scene.h"
+
+#include "calibration/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace curvewall {
+namespace {
+
+constexpr uint32_t kMostChunkVertices = 5'000'000;   // 60 MB of positions
+constexpr uint32_t kMostChunkTriangles = 5'000'000;  // 60 MB of corners
+constexpr uint32_t kUnassigned = ~0u;
+
+uint32_t packNormal(glm::vec3 normal) {
+    uint32_t bits = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto part = static_cast<int32_t>(std::lround(std::clamp(normal[i], -1.0f, 1.0f) * 511));
+        bits |= (static_cast<uint32_t>(part) & 0x3ffu) << (10 * i);
+    }
+    return bits;
+}
+
+// Collects a chunk's triangles and renumbers their vertices.
+class ChunkBuilder {
+public:
+    explicit ChunkBuilder(const Scene& scene) : scene_(scene), local_(scene.positions.size(), kUnassigned) {}
+
+    bool hasRoom() const {
+        return vertices_.size() + 3 <= kMostChunkVertices && triangles_.size() < kMostChunkTriangles;
+    }
+    bool isEmpty() const { return triangles_.empty(); }
+
+    void add(glm::uvec3 triangle, uint32_t material) {
+        if (ranges_.empty() || ranges_.back().material != material)
+            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0});
+        ++ranges_.back().triangleCount;
+        for (int i = 0; i < 3; ++i) {
+            uint32_t& index = local_[triangle[i]];
+            if (index == kUnassigned) {
+                index = static_cast<uint32_t>(vertices_.size());
+                vertices_.push_back(triangle[i]);
+            }
+            triangle[i] = index;
+        }
+        triangles_.push_back(triangle);
+    }
+
+    SceneChunk upload() {
+        SceneChunk chunk;
+        std::vector<glm::vec3> positions;
+        std::vector<uint32_t> normals;
+        std::vector<glm::vec2> uvs;
+        for (uint32_t vertex : vertices_) {
+            positions.push_back(scene_.positions[vertex]);
+            normals.push_back(packNormal(scene_.normals[vertex]));
+            uvs.push_back(scene_.uvs[vertex]);
+            local_[vertex] = kUnassigned;
+        }
+        chunk.positions = makeBuffer(std::span<const glm::vec3>(positions));
+        chunk.normals = makeBuffer(std::span<const uint32_t>(normals));
+        chunk.uvs = makeBuffer(std::span<const glm::vec2>(uvs));
+        chunk.corners = makeBuffer(std::span<const glm::uvec3>(triangles_));
+        chunk.singleSided = makeBuffer(std::span<const uint32_t>(singleSidedBits()));
+        chunk.vertexArray = vertexArrayOver(chunk);
+        chunk.triangleCount = static_cast<uint32_t>(triangles_.size());
+        chunk.ranges = std::move(ranges_);
+        vertices_.clear();
+        triangles_.clear();
+        ranges_.clear();
+        return chunk;
+    }
+
+private:
+    std::vector<uint32_t> singleSidedBits() const {
+        std::vector<uint32_t> bits(triangles_.size() / 32 + 1);
+        for (const MaterialRange& range : ranges_) {
+            if (scene_.materials[range.material].doubleSided) continue;
+            for (uint32_t i = 0; i < range.triangleCount; ++i)
+                bits[(range.firstTriangle + i) / 32] |= 1u << ((range.firstTriangle + i) % 32);
+        }
+        return bits;
+    }
+
+    static GlVertexArray vertexArrayOver(const SceneChunk& chunk) {
+        GlVertexArray array = makeVertexArray();
+        const auto attribute = [&](GLuint index, const GlBuffer& buffer, GLsizei stride, GLint size,
+                                   GLenum type, GLboolean normalized) {
+            glVertexArrayVertexBuffer(array.id(), index, buffer.id(), 0, stride);
+            glVertexArrayAttribFormat(array.id(), index, size, type, normalized, 0);
+            glVertexArrayAttribBinding(array.id(), index, index);
+            glEnableVertexArrayAttrib(array.id(), index);
+        };
+        attribute(0, chunk.positions, sizeof(glm::vec3), 3, GL_FLOAT, GL_FALSE);
+        attribute(1, chunk.normals, sizeof(uint32_t), 4, GL_INT_2_10_10_10_REV, GL_TRUE);
+        attribute(2, chunk.uvs, sizeof(glm::vec2), 2, GL_FLOAT, GL_FALSE);
+        glVertexArrayElementBuffer(array.id(), chunk.corners.id());
+        return array;
+    }
+
+    const Scene& scene_;
+    std::vector<uint32_t> local_;     // scene vertex -> chunk vertex
+    std::vector<uint32_t> vertices_;  // chunk vertex -> scene vertex
+    std::vector<glm::uvec3> triangles_;
+    std::vector<MaterialRange> ranges_;
+};
+
+std::vector<SceneChunk> uploadChunks(const Scene& scene) {
+    std::vector<SceneChunk> chunks;
+    ChunkBuilder builder(scene);
+    for (const MaterialRange& range : scene.ranges) {
+        for (uint32_t i = 0; i < range.triangleCount; ++i) {
+            if (!builder.hasRoom()) chunks.push_back(builder.upload());
+            builder.add(scene.triangles[range.firstTriangle + i], range.material);
+        }
+    }
+    if (!builder.isEmpty()) chunks.push_back(builder.upload());
+    return chunks;
+}
+
+GlTexture uploadTexture(const Texture& texture) {
+    GLint mostPx = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostPx);
+    const glm::ivec2 sizePx = texture.levels.front().sizePx;
+    if (std::max(sizePx.x, sizePx.y) > mostPx)
+        throw UsageError("texture \"" + texture.name + "\" is larger than the " + std::to_string(mostPx) +
+                         " px that this OpenGL allows");
+    GlTexture uploaded = makeTexture2D(GL_SRGB8_ALPHA8, sizePx, static_cast<int>(texture.levels.size()));
+    for (size_t i = 0; i < texture.levels.size(); ++i) {
+        const MipLevel& level = texture.levels[i];
+        glTextureSubImage2D(uploaded.id(), static_cast<GLint>(i), 0, 0, level.sizePx.x, level.sizePx.y,
+                            GL_RGBA, GL_UNSIGNED_BYTE, level.texels.data());
+    }
+    return uploaded;
+}
+
+GLint glWrap(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::repeat:
+            return GL_REPEAT;
+        case Wrap::clampToEdge:
+            return GL_CLAMP_TO_EDGE;
+        case Wrap::mirroredRepeat:
+            return GL_MIRRORED_REPEAT;
+    }
+    return GL_REPEAT;
+}
+
+GlSampler makeSampler(const Texture& texture) {
+    GLuint id = 0;
+    glCreateSamplers(1, &id);
+    GlSampler sampler(id);
+    glSamplerParameteri(id, GL_TEXTURE_WRAP_S, glWrap(texture.wrapS));
+    glSamplerParameteri(id, GL_TEXTURE_WRAP_T, glWrap(texture.wrapT));
+    glSamplerParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glSamplerParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return sampler;
+}
+
+}  // namespace
+
+GpuScene uploadScene(ScenePtr scene) {
+    GpuScene uploaded;
+    uploaded.chunks = uploadChunks(*scene);
+    for (const Texture& texture : scene->textures) {
+        uploaded.textures.push_back(uploadTexture(texture));
+        uploaded.samplers.push_back(makeSampler(texture));
+    }
+    uploaded.scene = std::move(scene);
+    return uploaded;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,89 @@
+#include "renderer/piecewise.h"
+
+#include <algorithm>
+
+namespace curvewall {
+namespace {
+
+bool needsSingleCover(OutputKind output) {
+    return output == OutputKind::coverage || output == OutputKind::position;
+}
+
+GeometryPath pathThrough(const GpuPieces& pieces, OutputKind output) {
+    const bool pairs = pieces.pieceCount > 1;
+    return {.pairs = pairs, .clipPlanes = pieces.clipPlanes, .owned = pairs && needsSingleCover(output)};
+}
+
+void bindStorage(GLuint binding, const GlBuffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
+}
+
+}  // namespace
+
+PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, SceneLook look,
+                                     const GlTexture* owners)
+    : scene_(scene),
+      pieces_(pieces),
+      owners_(owners),
+      programs_(*scene.scene, look, pathThrough(pieces, look.output)),
+      emptyVertexArray_(makeVertexArray()) {
+    if (pieces.pieceCount > 1) coverage_.emplace(scene);
+}
+
+void PiecewiseRenderer::record(const SceneView& view) {
+    programs_.setFrame(view, pieces_.frontIsClockwise);
+    for (int i = 0; i < 8; ++i)
+        (i < pieces_.clipPlanes ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
+    if (owners_) glBindTextureUnit(1, owners_->id());
+    if (coverage_)
+        recordPairs(view);
+    else
+        recordPlain(view);
+}
+
+void PiecewiseRenderer::bindMaterial(const Material& material) const {
+    if (!programs_.choose(material).textured) return;
+    const auto texture = static_cast<size_t>(material.texture);
+    glBindTextureUnit(0, scene_.textures[texture].id());
+    glBindSampler(0, scene_.samplers[texture].id());
+}
+
+void PiecewiseRenderer::recordPlain(const SceneView&) {
+    bindStorage(2, pieces_.pieces);
+    for (const SceneChunk& chunk : scene_.chunks) {
+        glBindVertexArray(chunk.vertexArray.id());
+        for (const MaterialRange& range : chunk.ranges) {
+            bindMaterial(scene_.scene->materials[range.material]);
+            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * range.triangleCount), GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(size_t{12} * range.firstTriangle));
+        }
+    }
+}
+
+void PiecewiseRenderer::recordPairs(const SceneView& view) {
+    for (size_t i = 0; i < coverage_->parts().size(); ++i) {
+        const ScenePart& part = coverage_->parts()[i];
+        coverage_->findPairs(i, pieces_, view);
+        glBindVertexArray(emptyVertexArray_.id());
+        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, coverage_->commands().id());
+        bindStorage(0, part.chunk->positions);
+        bindStorage(1, part.chunk->corners);
+        bindStorage(2, pieces_.pieces);
+        bindStorage(3, part.chunk->normals);
+        bindStorage(4, part.chunk->uvs);
+        bindStorage(6, coverage_->pairs());
+        for (size_t r = 0; r < part.ranges.size(); ++r) {
+            bindMaterial(scene_.scene->materials[part.ranges[r].material]);
+            glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(16 * r));
+        }
+    }
+}
+
+std::optional<uint64_t> PiecewiseRenderer::finishFrame() {
+    if (!coverage_) return scene_.scene->triangles.size();
+    const Coverage::Outcome outcome = coverage_->finishFrame();
+    if (outcome.overflowed) return std::nullopt;
+    return outcome.pairCount;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,41 @@
+#pragma once
+// Piecewise perspective rendering (Lorenz and Doellner, 2009): the scene is drawn once, every triangle into
+// just the pieces that it touches, each piece a plain perspective projection.
+
+#include "renderer/coverage.h"
+#include "renderer/scene_programs.h"
+
+#include <optional>
+
+namespace curvewall {
+
+// Draws a scene through one piece mesh. A mesh of one piece is one plain draw. The scene and the pieces must
+// outlive it.
+class PiecewiseRenderer {
+public:
+    // `owners` is the texture of uploadOwners and is needed for OutputKind::coverage and position, where each
+    // pixel must be its owner's; elsewhere it may be null.
+    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, SceneLook look,
+                      const GlTexture* owners);
+
+    // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
+    void record(const SceneView& view);
+
+    // Pairs of the frame just finished, or nothing when some found no room: then record it once more.
+    // Call it after the GPU has finished.
+    std::optional<uint64_t> finishFrame();
+
+private:
+    void recordPlain(const SceneView& view);
+    void recordPairs(const SceneView& view);
+    void bindMaterial(const Material& material) const;
+
+    const GpuScene& scene_;
+    const GpuPieces& pieces_;
+    const GlTexture* owners_;
+    ScenePrograms programs_;
+    std::optional<Coverage> coverage_;  // only where there are several pieces
+    GlVertexArray emptyVertexArray_;
+};
+
+}  // namespace curvewall

@@ -1,0 +1,267 @@
+#include "renderer/render.h"
+
+#include "calibration/errors.h"
+#include "calibration/piece_fit.h"
+#include "renderer/cube_faces.h"
+#include "renderer/frame_target.h"
+#include "renderer/gl/egl_context.h"
+#include "renderer/image_based.h"
+#include "renderer/piecewise.h"
+#include "renderer/reference.h"
+
+#include <glm/geometric.hpp>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+namespace curvewall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double peakMemoryMib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+GeometricError errorOf(const Certificate& certificate) {
+    return {certificate.maxPx, certificate.p99Px, certificate.meanPx};
+}
+
+Camera cameraOfFrame(const RenderRequest& request, int frame) {
+    Camera camera = request.camera;
+    camera.orientation.yawRad += 2 * std::numbers::pi * frame / request.frames;
+    return camera;
+}
+
+// What is worth keeping between renders: the most recently used few.
+template <class Key, class Value>
+class RecentlyUsed {
+public:
+    explicit RecentlyUsed(size_t most) : most_(most) {}
+
+    std::shared_ptr<Value> get(const Key& key, const std::function<std::shared_ptr<Value>()>& make) {
+        auto found = std::ranges::find(entries_, key, &Entry::key);
+        Entry entry = found != entries_.end() ? *found : Entry{key, make()};
+        if (found != entries_.end()) entries_.erase(found);
+        entries_.push_front(entry);
+        if (entries_.size() > most_) entries_.pop_back();
+        return entry.value;
+    }
+
+private:
+    struct Entry {
+        Key key;
+        std::shared_ptr<Value> value;
+    };
+    size_t most_;
+    std::deque<Entry> entries_;  // newest first
+};
+
+struct PiecesKey {
+    WallPtr wall;
+    const Display* display;
+    double tolerancePx;
+    bool operator==(const PiecesKey&) const = default;
+};
+
+struct PreparedPieces {
+    FittedPieces fitted;
+    GpuPieces gpu;
+    GlTexture owners;
+};
+
+struct DrawKey {
+    std::shared_ptr<GpuScene> scene;
+    std::shared_ptr<PreparedPieces> pieces;
+    Style style;
+    OutputKind output;
+    bool operator==(const DrawKey&) const = default;
+};
+
+// Waits until the GPU has done everything recorded so far.
+void waitForGpu() {
+    const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    constexpr GLuint64 kOneSecondNs = 1'000'000'000;
+    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kOneSecondNs) == GL_TIMEOUT_EXPIRED) {
+    }
+    glDeleteSync(fence);
+}
+
+// Draws all frames and measures them. `draw` finishes its frame; `readFirst` is called after frame 0, outside
+// the time.
+void measureFrames(const RenderRequest& request, const std::function<void(const Camera&)>& draw,
+                   const std::function<void()>& readFirst, RenderStats& stats) {
+    if (request.frames > 1)
+        draw(cameraOfFrame(request, 0));  // a driver compiles its last parts at the first draw
+    std::vector<double> frameMs;
+    for (int frame = 0; frame < request.frames; ++frame) {
+        const auto start = Clock::now();
+        draw(cameraOfFrame(request, frame));
+        frameMs.push_back(msSince(start));
+        if (frame == 0) readFirst();
+    }
+    std::ranges::sort(frameMs);
+    stats.frameMsMedian = frameMs[frameMs.size() / 2];
+    stats.frameMsMin = frameMs.front();
+    stats.frameMsMax = frameMs.back();
+}
+
+}  // namespace
+
+// The GL objects are declared after the context, so that they go first.
+struct Renderer::Impl {
+    std::optional<EglContext> context;
+    RecentlyUsed<ScenePtr, ReferenceRenderer> references{2};
+    RecentlyUsed<ScenePtr, GpuScene> scenes{4};
+    RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
+    RecentlyUsed<DrawKey, PiecewiseRenderer> draws{32};
+
+    std::shared_ptr<GpuScene> gpuScene(const ScenePtr& scene) {
+        return scenes.get(scene, [&] { return std::make_shared<GpuScene>(uploadScene(scene)); });
+    }
+
+    std::shared_ptr<PreparedPieces> preparedPieces(const RenderRequest& request, const Display& display) {
+        return pieces.get({request.wall, &display, request.tolerancePx}, [&] {
+            auto prepared = std::make_shared<PreparedPieces>();
+            prepared->fitted = fitPieces(*display.projection, display.sizePx, request.tolerancePx);
+            prepared->gpu = uploadPieces(prepared->fitted.mesh);
+            prepared->owners = uploadOwners(prepared->fitted.owners, display.sizePx);
+            return prepared;
+        });
+    }
+
+    RenderResult piecewise(const RenderRequest& request, const Display& display);
+    RenderResult imageBased(const RenderRequest& request, const Display& display);
+    RenderResult reference(const RenderRequest& request, const Display& display);
+};
+
+RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Display& display) {
+    RenderResult result;
+    RenderStats& stats = result.stats;
+    const auto start = Clock::now();
+    const auto scene = gpuScene(request.scene);
+    const auto prepared = preparedPieces(request, display);
+    const auto renderer = draws.get({scene, prepared, request.style, request.output}, [&] {
+        return std::make_shared<PiecewiseRenderer>(
+            *scene, prepared->gpu, SceneLook{request.style, request.output}, &prepared->owners);
+    });
+    const FrameTarget target(display.sizePx, {request.output, request.linearOutput}, request.samples);
+    stats.prepareMs = msSince(start);
+
+    const auto draw = [&](const Camera& camera) {
+        const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
+        std::optional<uint64_t> pairs;
+        while (!pairs) {
+            target.begin(request.wall->background);
+            renderer->record(view);
+            target.end();
+            waitForGpu();
+            pairs = renderer->finishFrame();
+        }
+        stats.pairs = *pairs;
+    };
+    uint64_t firstPairs = 0;
+    const auto readFirst = [&] {
+        result.frame = target.read();
+        firstPairs = stats.pairs;
+    };
+    measureFrames(request, draw, readFirst, stats);
+    stats.pairs = firstPairs;
+    stats.method = "piecewise";
+    stats.engine = prepared->gpu.pieceCount > 1 ? "compute" : "plain";
+    stats.tolerancePx = request.tolerancePx;
+    stats.geometricError = errorOf(prepared->fitted.certificate);
+    stats.pieces = prepared->gpu.pieceCount;
+    return result;
+}
+
+RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Display& display) {
+    if (request.samples > 1)
+        throw UsageError("image-based takes one sample a pixel; a larger face size is its way to more");
+    RenderResult result;
+    RenderStats& stats = result.stats;
+    const auto start = Clock::now();
+    const auto scene = gpuScene(request.scene);
+    const std::vector<glm::vec4> rays = displayRays(display);
+    const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
+    const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);
+    const auto middle = display.projection->unproject(glm::dvec2(display.sizePx) / 2.0);
+    const TargetFormat format{request.output, request.linearOutput};
+    ImageBasedRenderer renderer(*scene, rays, display.sizePx, faceSizePx, faces,
+                                middle ? glm::length(*middle) : 1.0, {request.style, request.output}, format);
+    const FrameTarget target(display.sizePx, format, 1);
+    stats.prepareMs = msSince(start);
+
+    const auto draw = [&](const Camera& camera) {
+        renderer.record(sceneViewOf(camera, request.wall->eyeM, *request.scene), target,
+                        request.wall->background);
+        waitForGpu();
+    };
+    measureFrames(
+        request, draw, [&] { result.frame = target.read(); }, stats);
+    stats.method = "image-based";
+    stats.engine = "cube";
+    stats.geometricError = errorOf(cubeError(display, rays, faceSizePx));
+    stats.pairs = renderer.pairCount();
+    stats.faceSizePx = faceSizePx;
+    stats.faces = static_cast<int>(std::ranges::count(faces, true));
+    return result;
+}
+
+RenderResult Renderer::Impl::reference(const RenderRequest& request, const Display& display) {
+    RenderResult result;
+    const auto start = Clock::now();
+    const auto renderer =
+        references.get(request.scene, [&] { return std::make_shared<ReferenceRenderer>(request.scene); });
+    result.stats.prepareMs = msSince(start);
+    Frame latest;
+    const auto draw = [&](const Camera& camera) {
+        latest = renderer->render(*request.wall, display, camera,
+                                  {request.style, request.output, request.samples});
+    };
+    measureFrames(
+        request, draw, [&] { result.frame = std::move(latest); }, result.stats);
+    result.stats.method = "reference";
+    result.stats.engine = "embree";
+    result.stats.pairs = request.scene->triangles.size();
+    return result;
+}
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+RenderResult Renderer::render(const RenderRequest& request) {
+    const Display& display = findDisplay(*request.wall, request.display);
+    if (request.method != Method::reference && !impl_->context) impl_->context.emplace();
+    RenderResult result;
+    switch (request.method) {
+        case Method::piecewise:
+            result = impl_->piecewise(request, display);
+            break;
+        case Method::imageBased:
+            result = impl_->imageBased(request, display);
+            break;
+        case Method::reference:
+            result = impl_->reference(request, display);
+            break;
+    }
+    result.stats.triangles = request.scene->triangles.size();
+    result.stats.samples = request.samples;
+    result.stats.frames = request.frames;
+    result.stats.peakMemoryMib = peakMemoryMib();
+    if (request.method != Method::reference) result.stats.glRenderer = impl_->context->rendererName();
+    return result;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,53 @@
+#pragma once
+// The variants of scene.vert and scene.frag that a look needs, compiled before the first frame.
+
+#include "renderer/gl/program.h"
+#include "renderer/gpu_pieces.h"
+#include "renderer/look.h"
+#include "renderer/scene/scene.h"
+#include "renderer/scene_view.h"
+
+#include <compare>
+#include <map>
+
+namespace curvewall {
+
+struct SceneLook {
+    Style style = Style::textured;
+    OutputKind output = OutputKind::color;
+};
+
+// How the corners reach the shader.
+struct GeometryPath {
+    bool pairs = false;  // (triangle, piece) pairs; otherwise one piece, plain vertices
+    int clipPlanes = 0;
+    bool owned = false;  // only the owner of a pixel draws it: where each pixel must be covered once
+};
+
+// Only what the look reads is fetched: a flat material has no texture coordinates, depth has no normals.
+class ScenePrograms {
+public:
+    ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path);
+
+    // Makes the material's program current with its constants set. Textures are the caller's.
+    struct Chosen {
+        GLuint program = 0;
+        bool textured = false;
+    };
+    Chosen choose(const Material& material) const;
+
+    // Sets what is the same for all materials of a frame.
+    void setFrame(const SceneView& view, bool frontIsClockwise) const;
+
+private:
+    struct Variant {
+        bool lit = false, textured = false, masked = false, singleSided = false;
+        auto operator<=>(const Variant&) const = default;
+    };
+    Variant variantFor(const Material& material) const;
+
+    SceneLook look_;
+    std::map<Variant, GlProgram> programs_;
+};
+
+}  // namespace curvewall

@@ -1,0 +1,30 @@
+#include "renderer/stats.h"
+
+#include <nlohmann/json.hpp>
+
+namespace curvewall {
+
+nlohmann::json toJson(const RenderStats& stats) {
+    return {
+        {"method", stats.method},
+        {"engine", stats.engine},
+        {"tolerance_px", stats.tolerancePx},
+        {"geometric_error_px",
+         {{"max", stats.geometricError.maxPx},
+          {"p99", stats.geometricError.p99Px},
+          {"mean", stats.geometricError.meanPx}}},
+        {"pieces", stats.pieces},
+        {"face_size_px", stats.faceSizePx},
+        {"faces", stats.faces},
+        {"triangles", stats.triangles},
+        {"pairs", stats.pairs},
+        {"replication_ratio", stats.replicationRatio()},
+        {"samples", stats.samples},
+        {"frames", stats.frames},
+        {"frame_ms", {{"median", stats.frameMsMedian}, {"min", stats.frameMsMin}, {"max", stats.frameMsMax}}},
+        {"prepare_ms", stats.prepareMs},
+        {"gl_renderer", stats.glRenderer},
+        {"peak_memory_mib", stats.peakMemoryMib}};
+}
+
+}  // namespace curvewall

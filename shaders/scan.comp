@@ -1,0 +1,39 @@
+// Turns the pair counts of the coverage groups into the index of each group's first pair. One group runs.
+
+layout(local_size_x = GROUP_SIZE) in;
+
+layout(std430, binding = 4) buffer GroupPairs { uint groupPairs[]; };
+layout(std430, binding = 5) buffer FirstPair { uint firstPair[]; };
+layout(std430, binding = 7) writeonly buffer Totals { uint totals[]; };  // read by the CPU after the frame
+
+layout(location = 3) uniform uint triangleCount;
+layout(location = 6) uniform uint groupCount;
+layout(location = 7) uniform uint part;
+
+shared uint sums[GROUP_SIZE];
+
+void main() {
+    uint self = gl_LocalInvocationIndex;
+    uint share = (groupCount + GROUP_SIZE - 1u) / GROUP_SIZE;
+    uint begin = min(self * share, groupCount), end = min(begin + share, groupCount);
+    uint sum = 0u;
+    for (uint i = begin; i < end; ++i) sum += groupPairs[i];
+    sums[self] = sum;
+    barrier();
+    for (uint reach = 1u; reach < GROUP_SIZE; reach *= 2u) {
+        uint before = self >= reach ? sums[self - reach] : 0u;
+        barrier();
+        sums[self] += before;
+        barrier();
+    }
+    uint next = sums[self] - sum;
+    for (uint i = begin; i < end; ++i) {
+        uint count = groupPairs[i];
+        groupPairs[i] = next;
+        next += count;
+    }
+    if (self == GROUP_SIZE - 1u) {
+        totals[part] = sums[self];
+        firstPair[triangleCount] = sums[self];
+    }
+}

@@ -1,0 +1,75 @@
+// A triangle's corner on the screen of one piece: H r, with w = 1 on the facet. PAIRS pulls the corner of a
+// (triangle, piece) pair; without it one piece serves the whole display and corners come as plain vertices.
+
+#include "scene_geometry.glsl"
+
+layout(std430, binding = 2) readonly buffer Pieces { vec4 pieces[]; };  // three rows of H to clip space, then planes
+
+layout(location = 9) uniform float nearFraction;  // depth = nearFraction / w, reversed
+
+#ifdef PAIRS
+layout(std430, binding = 3) readonly buffer Normals { uint normals[]; };
+layout(std430, binding = 4) readonly buffer Uvs { vec2 uvs[]; };
+layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };
+#else
+layout(location = 0) in vec3 vertexPosition;
+layout(location = 1) in vec4 vertexNormal;
+layout(location = 2) in vec2 vertexUv;
+#endif
+
+layout(location = 0) out vec3 ray;
+#ifdef LIT
+layout(location = 1) out vec3 normal;
+#endif
+#ifdef TEXTURED
+layout(location = 2) out vec2 uv;
+#endif
+#ifdef OWNED
+layout(location = 3) flat out int ownPiece;
+#endif
+
+#if CLIP_PLANES > 0
+out float gl_ClipDistance[CLIP_PLANES];
+#endif
+
+// Normals are packed as signed 10-bit integers, x lowest.
+vec3 unpackNormal(uint bits) {
+    ivec3 parts = ivec3(int(bits << 22u) >> 22, int(bits << 12u) >> 22, int(bits << 2u) >> 22);
+    return vec3(parts) / 511.0;
+}
+
+void main() {
+#ifdef PAIRS
+    uvec2 pair = pairs[uint(gl_VertexID) / 3u];
+    bool behind = (pair.x & 0x80000000u) != 0u;
+    uint vertex = corners[3u * (pair.x & 0x7fffffffu) + uint(gl_VertexID) % 3u];
+    uint row = pair.y * uint(3 + CLIP_PLANES);
+    ray = rayToVertex(vertex);
+#ifdef LIT
+    normal = unpackNormal(normals[vertex]) * (behind ? -1.0 : 1.0);
+#endif
+#ifdef TEXTURED
+    uv = uvs[vertex];
+#endif
+#ifdef OWNED
+    ownPiece = int(pair.y);
+#endif
+#else
+    uint row = 0u;
+    ray = rayTo(vertexPosition);
+#ifdef LIT
+    normal = vertexNormal.xyz;
+#endif
+#ifdef TEXTURED
+    uv = vertexUv;
+#endif
+#ifdef OWNED
+    ownPiece = 0;
+#endif
+#endif
+    gl_Position = vec4(dot(pieces[row].xyz, ray), dot(pieces[row + 1u].xyz, ray), nearFraction,
+                       dot(pieces[row + 2u].xyz, ray));
+#if CLIP_PLANES > 0
+    for (uint i = 0u; i < uint(CLIP_PLANES); ++i) gl_ClipDistance[i] = dot(pieces[row + 3u + i].xyz, ray);
+#endif
+}
