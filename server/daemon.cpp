@@ -1,0 +1,101 @@
+#include "server/daemon.h"
+
+#include "server/frame_maker.h"
+
+#include <boost/asio/post.hpp>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+constexpr std::chrono::milliseconds kSweepPeriod(250);
+
+HttpLimits limitsFrom(const DaemonConfig& config) {
+    HttpLimits limits;
+    limits.maxBodyBytes = config.maxBodyBytes;
+    limits.maxConnections = config.maxConnections;
+    return limits;
+}
+
+RenderQueue::Settings queueSettingsFrom(const DaemonConfig& config) {
+    RenderQueue::Settings settings;
+    settings.length = config.queueLength;
+    settings.deadline = config.queueDeadline;
+    return settings;
+}
+
+HttpHandler handlerFor(const HttpApi& api) {
+    return {[&api](const Call& call) { return api.refuseHead(call); },
+            [&api](const Call& call, std::stop_token abandoned, Reply reply) {
+                api.answer(call, std::move(abandoned), std::move(reply));
+            }};
+}
+
+}  // namespace
+
+Daemon::Daemon(const DaemonConfig& config, MakeRenderFunction makeRender)
+    : library_(openLibrary(config.wallsFolder, config.scenesFolder, config.maxCityTriangles)),
+      queue_(queueSettingsFrom(config), std::move(makeRender)),
+      api_(library_, queue_, {config.token, config.maxSamplesPerFrame}),
+      server_(context_, config.bindAddress, config.port, limitsFrom(config), handlerFor(api_)),
+      sweepTimer_(context_),
+      signals_(context_) {
+    sweepLater();
+}
+
+void Daemon::stopOnSignals() {
+    signals_.add(SIGTERM);
+    signals_.add(SIGINT);
+    signals_.async_wait([this](boost::system::error_code error, int) {
+        if (!error) stop();
+    });
+}
+
+void Daemon::run() {
+    for (;;) {
+        try {
+            context_.run();
+            return;
+        } catch (const std::exception& error) {  // out of memory for one client; the others go on
+            spdlog::error("a connection failed: {}", error.what());
+        }
+    }
+}
+
+void Daemon::stop() {
+    boost::asio::post(context_, [this] {
+        stopping_ = true;
+        server_.stop();
+        sweepTimer_.cancel();
+        signals_.cancel();
+        queue_.stop();
+    });
+}
+
+void Daemon::sweepLater() {
+    sweepTimer_.expires_after(kSweepPeriod);
+    sweepTimer_.async_wait([this](boost::system::error_code error) {
+        if (error || stopping_) return;
+        queue_.sweep();
+        sweepLater();
+    });
+}
+
+int runDaemon(const DaemonConfig& config) {
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+        "curvewall", std::make_shared<spdlog::sinks::stderr_color_sink_mt>()));
+    Daemon daemon(config, [count = config.maxLoadedScenes] { return makeFrameMaker(count); });
+    daemon.stopOnSignals();
+    std::cout << "listening on " << daemon.url() << std::endl;
+    daemon.run();
+    return 0;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,40 @@
+#pragma once
+// The calls of the network interface (docs/http.md), free of sockets.
+
+#include "server/answer.h"
+#include "server/library.h"
+#include "server/render_queue.h"
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace curvewall {
+
+class HttpApi {
+public:
+    struct Settings {
+        std::string token;  // empty: none is asked for
+        uint64_t maxSamplesPerFrame = uint64_t{1} << 27;
+    };
+
+    // Keeps references to the library and the queue.
+    HttpApi(const Library& library, RenderQueue& queue, Settings settings);
+
+    // What can be refused without seeing the body.
+    std::optional<Answer> refuseHead(const Call& call) const;
+
+    // Replies once, from any thread and possibly before it returns. Does not throw.
+    void answer(const Call& call, std::stop_token abandoned, Reply reply) const;
+
+private:
+    bool isAuthorized(const Call& call) const;
+    void render(const Call& call, std::stop_token abandoned, Reply reply) const;
+
+    const Library& library_;
+    RenderQueue& queue_;
+    const Settings settings_;
+};
+
+}  // namespace curvewall

@@ -1,0 +1,165 @@
+#include "server/json_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxDepth = 16;
+constexpr size_t kMaxQuotedCharacters = 40;
+
+// nlohmann's messages begin with a tag in brackets that helps nobody outside the library.
+std::string withoutTag(std::string_view message) {
+    const size_t end = message.find("] ");
+    return std::string(end == std::string_view::npos ? message : message.substr(end + 2));
+}
+
+std::string formatted(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
+
+// Refuses what nlohmann lets through: nesting bombs and repeated keys, of which it would keep the last.
+class StructureCheck {
+public:
+    bool operator()(int depth, json::parse_event_t event, json& parsed) {
+        if (depth > kMaxDepth)
+            throw JsonSyntaxError("nested more than " + std::to_string(kMaxDepth) + " levels deep");
+        if (event == json::parse_event_t::object_start) keysOfOpenObjects_.emplace_back();
+        if (event == json::parse_event_t::object_end) keysOfOpenObjects_.pop_back();
+        if (event == json::parse_event_t::key &&
+            !keysOfOpenObjects_.back().insert(parsed.get<std::string>()).second)
+            throw JsonSyntaxError("the key " + describe(parsed) + " is given twice");
+        return true;
+    }
+
+private:
+    std::vector<std::set<std::string>> keysOfOpenObjects_;
+};
+
+double checkedNumber(const json& value, const std::string& field, Range range) {
+    if (!value.is_number()) throw FieldError(FieldError::Kind::shape, field, "a number", describe(value));
+    const double number = value.get<double>();
+    if (!(number >= range.min && number <= range.max))
+        throw FieldError(FieldError::Kind::value, field,
+                         "a number from " + formatted(range.min) + " to " + formatted(range.max),
+                         describe(value));
+    return number;
+}
+
+}  // namespace
+
+FieldError::FieldError(Kind kindOfError, std::string fieldName, std::string whatWasExpected,
+                       std::string whatWasFound)
+    : std::runtime_error((fieldName.empty() ? "" : fieldName + ": ") + "expected " + whatWasExpected +
+                         ", found " + whatWasFound),
+      kind(kindOfError),
+      field(std::move(fieldName)),
+      expected(std::move(whatWasExpected)),
+      found(std::move(whatWasFound)) {}
+
+json parseJson(std::string_view text) {
+    StructureCheck check;
+    try {
+        return json::parse(text, [&check](int depth, json::parse_event_t event, json& parsed) {
+            return check(depth, event, parsed);
+        });
+    } catch (const json::exception& error) {
+        throw JsonSyntaxError(withoutTag(error.what()));
+    }
+}
+
+std::string describe(const json& value) {
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "a list";
+    // The ASCII form cannot be cut in the middle of a character.
+    std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+    if (text.size() <= kMaxQuotedCharacters) return text;
+    text.resize(kMaxQuotedCharacters);
+    return text + (value.is_string() ? "...\"" : "...");
+}
+
+JsonFields::JsonFields(const json& object, std::string name) : object_(object), name_(std::move(name)) {
+    if (!object.is_object()) throw FieldError(FieldError::Kind::shape, name_, "an object", describe(object));
+}
+
+void JsonFields::require(std::string_view key) const {
+    if (!has(key)) throw FieldError(FieldError::Kind::shape, nameOf(key), "a value", "nothing");
+}
+
+std::optional<std::string> JsonFields::text(const char* key) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_string())
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a string", describe(*value));
+    return value->get<std::string>();
+}
+
+std::optional<double> JsonFields::number(const char* key, Range range) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    return checkedNumber(*value, nameOf(key), range);
+}
+
+std::optional<int64_t> JsonFields::wholeNumber(const char* key, int64_t min, int64_t max) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    // Through double, so that 16.0 is 16 and no integer type overflows before the range is known to hold.
+    if (!value->is_number() || value->get<double>() != std::floor(value->get<double>()))
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a whole number", describe(*value));
+    if (const double number = value->get<double>();
+        number < static_cast<double>(min) || number > static_cast<double>(max))
+        throw FieldError(FieldError::Kind::value, nameOf(key),
+                         "a whole number from " + std::to_string(min) + " to " + std::to_string(max),
+                         describe(*value));
+    return value->get<int64_t>();
+}
+
+std::optional<std::array<double, 3>> JsonFields::vector(const char* key, Range range) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_array() || value->size() != 3)
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a list of three numbers",
+                         value->is_array() ? "a list of " + std::to_string(value->size()) : describe(*value));
+    std::array<double, 3> numbers{};
+    for (size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = checkedNumber((*value)[i], nameOf(key) + "[" + std::to_string(i) + "]", range);
+    return numbers;
+}
+
+std::optional<JsonFields> JsonFields::object(const char* key) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    return JsonFields(*value, nameOf(key));
+}
+
+void JsonFields::refuseUnknownKeys() const {
+    for (const auto& [key, value] : object_.items()) {
+        if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+        std::string expected = "only the keys ";
+        for (size_t i = 0; i < known_.size(); ++i) {
+            if (i > 0) expected += ", ";
+            expected += known_[i];
+        }
+        throw FieldError(FieldError::Kind::shape, name_, expected, "the key " + describe(key));
+    }
+}
+
+std::string JsonFields::nameOf(std::string_view key) const {
+    return name_.empty() ? std::string(key) : name_ + "." + std::string(key);
+}
+
+const json* JsonFields::find(const char* key) {
+    known_.emplace_back(key);
+    const auto found = object_.find(key);
+    return found == object_.end() ? nullptr : &*found;
+}
+
+}  // namespace curvewall
