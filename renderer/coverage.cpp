@@ -1,6 +1,7 @@
 #include "renderer/coverage.h"
 
 #include <algorithm>
+#include <string>
 
 namespace curvewall {
 namespace {

@@ -2,6 +2,7 @@
 // Finds the (triangle, piece) pairs of a frame on the GPU.
 
 #include "renderer/gpu_pieces.h"
+#include "renderer/gl/program.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/scene_view.h"
 
