@@ -1,5 +1,7 @@
 #include "renderer/coverage.h"
 
+#include <glm/vec4.hpp>
+
 #include <algorithm>
 #include <string>
 
@@ -82,6 +84,7 @@ void Coverage::allocate() {
     }
     groupPairs_ = makeBuffer(nullptr, sizeof(uint32_t) * groupsFor(triangles, kGroupSize));
     firstPair_ = makeBuffer(nullptr, sizeof(uint32_t) * (triangles + 1));
+    found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * triangles);
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
     commands_ = makeBuffer(nullptr, sizeof(DrawCommand) * ranges);
     constexpr GLbitfield kMapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
@@ -101,7 +104,7 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     bindStorage(4, groupPairs_);
     bindStorage(5, firstPair_);
     bindStorage(6, pairs_);
-    bindStorage(7, totalsBuffer_);
+    bindStorage(7, found_);
     for (const GlProgram* program : {&count_, &emit_}) {
         setView(*program, view);
         glProgramUniform1ui(program->id(), 2, part.firstTriangle);
@@ -113,6 +116,7 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     glProgramUniform1ui(scan_.id(), 6, groups);
     glProgramUniform1ui(scan_.id(), 7, static_cast<GLuint>(index));
     dispatch(count_, groups);
+    bindStorage(3, totalsBuffer_);
     dispatch(scan_, 1);
     dispatch(emit_, groups);
 

@@ -1,8 +1,8 @@
 #pragma once
 // Finds the (triangle, piece) pairs of a frame on the GPU.
 
-#include "renderer/gpu_pieces.h"
 #include "renderer/gl/program.h"
+#include "renderer/gpu_pieces.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/scene_view.h"
 
@@ -49,7 +49,7 @@ private:
     GlProgram count_, scan_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
     uint32_t capacity_ = 0;  // pairs
-    GlBuffer groupPairs_, firstPair_, pairs_, commands_, totalsBuffer_;
+    GlBuffer groupPairs_, firstPair_, found_, pairs_, commands_, totalsBuffer_;
     const volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
 };
 

@@ -1,6 +1,6 @@
 // Which pieces does each triangle touch? Run twice a frame: COUNT, and after scan.comp EMIT, which writes the pairs in
 // scene order so that the same request draws the same picture. Lorenz and Doellner (2009), section 2.1, count in pass 1
-// and replicate in pass 2; here both walk the tree over the pieces instead of a fixed grid.
+// and replicate in pass 2; here a tree over the pieces takes the place of their regular grid.
 
 #include "scene_geometry.glsl"
 
@@ -12,12 +12,14 @@ struct ConeNode {
 };
 const uint NO_PIECE = 0xffffffffu;
 const uint SEEN_FROM_BEHIND = 0x80000000u;
+const uint KEPT = 3u;  // pieces of a triangle that need no second walk; most triangles touch fewer
 
 layout(std430, binding = 2) readonly buffer Nodes { ConeNode nodes[]; };
 layout(std430, binding = 3) readonly buffer SingleSided { uint singleSided[]; };  // one bit a triangle
 layout(std430, binding = 4) buffer GroupPairs { uint groupPairs[]; };   // COUNT: pairs of a group; EMIT: its first
 layout(std430, binding = 5) buffer FirstPair { uint firstPair[]; };     // of each triangle, and of the one after the last
 layout(std430, binding = 6) writeonly buffer Pairs { uvec2 pairs[]; };  // triangle and facing, piece
+layout(std430, binding = 7) buffer Found { uvec4 found[]; };            // KEPT pieces of each triangle, count and facing
 
 layout(location = 2) uniform uint firstTriangle;
 layout(location = 3) uniform uint triangleCount;
@@ -34,6 +36,8 @@ bool outside(ConeNode node, vec3 a, vec3 b, vec3 c) {
     return false;
 }
 
+vec3 cornerRay(uint triangle, uint corner) { return rayToVertex(corners[3u * triangle + corner]); }
+
 // Exclusive sum of `value` over the group.
 uint groupPrefix(uint value) {
     uint self = gl_LocalInvocationIndex;
@@ -48,44 +52,57 @@ uint groupPrefix(uint value) {
     return sums[self] - value;
 }
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    uint triangle = firstTriangle + index;
-    bool inUse = index < triangleCount;
-
-    vec3 a = vec3(0.0), b = vec3(0.0), c = vec3(0.0);
-    bool behind = false;
-    if (inUse) {
-        a = rayToVertex(corners[3u * triangle]);
-        b = rayToVertex(corners[3u * triangle + 1u]);
-        c = rayToVertex(corners[3u * triangle + 2u]);
-        // Facing is a property of the triangle and the eye, not of any piece's screen.
-        behind = dot(a, cross(b, c)) > 0.0;
-        if (behind && (singleSided[triangle / 32u] >> (triangle % 32u) & 1u) != 0u) inUse = false;
-    }
-
-#ifdef EMIT
-    uint next = index < triangleCount ? firstPair[index] + groupPairs[gl_WorkGroupID.x] : 0u;
-    if (index < triangleCount) firstPair[index] = next;
-#endif
+// Walks the tree. COUNT keeps the first pieces found and returns how many there are; EMIT writes the pairs from `next` on.
+uint walk(vec3 a, vec3 b, vec3 c, uint triangleAndFacing, uint next, inout uvec3 kept) {
     uint count = 0u;
-    for (uint i = 0u; inUse && i < nodeCount;) {
+    for (uint i = 0u; i < nodeCount;) {
         if (outside(nodes[i], a, b, c)) {
             i = nodes[i].link.x;
             continue;
         }
-        if (nodes[i].link.y != NO_PIECE) {
+        uint piece = nodes[i].link.y;
+        if (piece != NO_PIECE) {
 #ifdef EMIT
-            if (next + count < capacity)
-                pairs[next + count] = uvec2(triangle | (behind ? SEEN_FROM_BEHIND : 0u), nodes[i].link.y);
+            if (next + count < capacity) pairs[next + count] = uvec2(triangleAndFacing, piece);
+#else
+            if (count < KEPT) kept[count] = piece;
 #endif
             ++count;
         }
         ++i;
     }
+    return count;
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    uint triangle = firstTriangle + index;
 #ifdef COUNT
+    uint count = 0u;
+    if (index < triangleCount) {
+        vec3 a = cornerRay(triangle, 0u), b = cornerRay(triangle, 1u), c = cornerRay(triangle, 2u);
+        // Facing is a property of the triangle and the eye, not of any piece's screen.
+        bool behind = dot(a, cross(b, c)) > 0.0;
+        uvec3 kept = uvec3(0u);
+        if (!behind || (singleSided[triangle / 32u] >> (triangle % 32u) & 1u) == 0u)
+            count = walk(a, b, c, triangle, 0u, kept);
+        found[index] = uvec4(kept, count | (behind ? SEEN_FROM_BEHIND : 0u));
+    }
     uint before = groupPrefix(count);
     if (index < triangleCount) firstPair[index] = before;
     if (gl_LocalInvocationIndex == GROUP_SIZE - 1u) groupPairs[gl_WorkGroupID.x] = before + count;
+#else
+    if (index >= triangleCount) return;
+    uint next = firstPair[index] + groupPairs[gl_WorkGroupID.x];
+    firstPair[index] = next;
+    uvec3 kept = found[index].xyz;
+    uint count = found[index].w & ~SEEN_FROM_BEHIND;
+    uint triangleAndFacing = triangle | (found[index].w & SEEN_FROM_BEHIND);
+    if (count > KEPT) {
+        walk(cornerRay(triangle, 0u), cornerRay(triangle, 1u), cornerRay(triangle, 2u), triangleAndFacing, next, kept);
+    } else {
+        for (uint i = 0u; i < count; ++i)
+            if (next + i < capacity) pairs[next + i] = uvec2(triangleAndFacing, kept[i]);
+    }
 #endif
 }

@@ -4,7 +4,7 @@ layout(local_size_x = GROUP_SIZE) in;
 
 layout(std430, binding = 4) buffer GroupPairs { uint groupPairs[]; };
 layout(std430, binding = 5) buffer FirstPair { uint firstPair[]; };
-layout(std430, binding = 7) writeonly buffer Totals { uint totals[]; };  // read by the CPU after the frame
+layout(std430, binding = 3) writeonly buffer Totals { uint totals[]; };  // read by the CPU after the frame
 
 layout(location = 3) uniform uint triangleCount;
 layout(location = 6) uniform uint groupCount;
