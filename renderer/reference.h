@@ -24,8 +24,9 @@ public:
         Style style = Style::textured;
         OutputKind output = OutputKind::color;
         int samples = 1;  // rays per pixel: 1 casts the pixel centre, n a stratified, seeded pattern
+        int threads = 0;  // 0: all cores; the picture does not depend on it
     };
-    // Uses all cores. Colour is averaged in linear light; the other outputs are of the pixel's centre.
+    // Colour is averaged in linear light; the other outputs are of the pixel's centre.
     // Textures are filtered by the footprint of the sample (ray differentials, trilinear).
     Frame render(const Wall& wall, const Display& display, const Camera& camera,
                  const Options& options) const;
