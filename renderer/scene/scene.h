@@ -58,6 +58,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     Camera defaultCamera;
+    size_t droppedTriangles = 0;     // of the file's: non-finite or without area, so nothing shows them
     std::vector<std::string> notes;  // what the file holds that is not drawn, for the user
 };
 
