@@ -1,5 +1,6 @@
 // curvewall inspect
 
+#include "calibration/errors.h"
 #include "calibration/piece_drawing.h"
 #include "calibration/piece_fit.h"
 #include "calibration/wall_reader.h"
@@ -10,9 +11,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 

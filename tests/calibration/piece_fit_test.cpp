@@ -87,15 +87,12 @@ TEST_P(PieceFitWalls, MeetTheToleranceAtEveryPixel) {
     }
 }
 
-TEST_P(PieceFitWalls, FacetsAllFaceTheEye) {
+TEST_P(PieceFitWalls, FacetsAllTurnTheSameSideToTheEye) {
     const FittedPieces fitted = fit(GetParam(), 0.5);
     for (const Piece& piece : fitted.mesh.pieces) {
         const auto m = [&](size_t i) { return fitted.mesh.vertices[piece.vertices[i]].m; };
-        EXPECT_LT(glm::determinant(glm::dmat3(m(0), m(1), m(2))) *
-                      glm::determinant(
-                          glm::dmat3(glm::dvec3(-1, 1, -1), glm::dvec3(1, 1, -1), glm::dvec3(1, -1, -1))) *
-                      -1,
-                  0);
+        // From the top left to the top right and down: clockwise for the eye, so the volume is negative.
+        EXPECT_LT(glm::determinant(glm::dmat3(m(0), m(1), m(2))), 0);
     }
 }
 
@@ -117,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Cylinders, PieceFitWalls,
                                            test::cylinderWall(kTiltedArc, {0.7, 0.6, 0.9}, {960, 540}),
                                            test::cylinderWall(kSliver, {1.9, 0, 0}, {64, 480}),
                                            test::fullCylinderWall({16, 12})),
-                         [](const auto& info) { return "Wall" + std::to_string(info.index); });
+                         [](const auto& wall) { return "Wall" + std::to_string(wall.index); });
 
 }  // namespace
 }  // namespace curvewall

@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Walls, PieceTree,
                                            test::fullCylinderWall({800, 600}, {1.8, 0, 0.2}),
                                            test::cylinderWall({2, 1.5, 1, {}, {0.7, 0.3, 0}}, {}, {640, 480}),
                                            test::planarWall({640, 480}, 90)),
-                         [](const auto& info) { return "Wall" + std::to_string(info.index); });
+                         [](const auto& wall) { return "Wall" + std::to_string(wall.index); });
 
 }  // namespace
 }  // namespace curvewall
