@@ -25,7 +25,8 @@ PieceMesh inscribedSlices(const Projection& projection, glm::ivec2 sizePx, int c
 
 TEST(Certificate, InscribedSlicesErrAsTheirSagittaSays) {
     // A ray to the middle of a slice meets the facet at cos(half the slice's angle) of the distance to the
-    // wall, so heights shrink by that factor: at the border rows by (599.5 px) (1 - cos(pi / N)).
+    // wall, so heights shrink by that factor: at the border rows by (599.5 px) (1 - cos(pi / N)). No pixel
+    // centre need lie just in the middle: half a pixel beside it, in a slice of 16 px, takes 0.4 % off.
     const glm::ivec2 sizePx(1600, 1200);
     const Wall wall = test::fullCylinderWall(sizePx);
     for (int count : {32, 50, 100}) {
@@ -34,7 +35,7 @@ TEST(Certificate, InscribedSlicesErrAsTheirSagittaSays) {
         const std::vector<int32_t> owners = ownerImage(mesh);
         const auto errors = pieceErrorsPx(*wall.displays[0].projection, mesh, owners);
         const Certificate certificate = certificateOf(errors, owners, sizePx);
-        EXPECT_NEAR(certificate.maxPx, 599.5 * (1 - std::cos(kPi / count)), 2e-3 * certificate.maxPx);
+        EXPECT_NEAR(certificate.maxPx, 599.5 * (1 - std::cos(kPi / count)), 5e-3 * certificate.maxPx);
         EXPECT_TRUE(certificate.maxAt.y == 0 || certificate.maxAt.y == 1199);
         EXPECT_EQ(certificate.uncoveredPixels, 0);
         EXPECT_EQ(certificate.holes, 0);

@@ -91,8 +91,8 @@ TEST_P(PieceFitWalls, FacetsAllTurnTheSameSideToTheEye) {
     const FittedPieces fitted = fit(GetParam(), 0.5);
     for (const Piece& piece : fitted.mesh.pieces) {
         const auto m = [&](size_t i) { return fitted.mesh.vertices[piece.vertices[i]].m; };
-        // From the top left to the top right and down: clockwise for the eye, so the volume is negative.
-        EXPECT_LT(glm::determinant(glm::dmat3(m(0), m(1), m(2))), 0);
+        // From the top left to the top right and down: clockwise for the eye, so the volume is positive.
+        EXPECT_GT(glm::determinant(glm::dmat3(m(0), m(1), m(2))), 0);
     }
 }
 
