@@ -39,7 +39,7 @@ void addGround(MeshBuilder& mesh, const StreetGrid& grid, uint32_t triangles, ui
     const std::array<glm::vec2, 4> outer{
         {{country.lowM.x, country.highM.y}, country.highM, {country.highM.x, country.lowM.y}, country.lowM}};
     const int hills = triangles < 5'000 ? 2 : 12;  // a side
-    Random random(keyFrom(seed, 4, 0, 0));
+    Random random(keyFrom(seed, KeyPurpose::hills, 0, 0));
     std::vector<float> hillM(static_cast<size_t>(4 * hills));
     for (float& height : hillM) height = random.between(18.0f, 60.0f);
     for (size_t side = 0; side < 4; ++side) {
@@ -102,7 +102,7 @@ void addBuildings(MeshBuilder& mesh, const Block& block, size_t limit) {
 
 // The last few triangles are fallen leaves on the sidewalks, some around every block.
 void addLeaves(MeshBuilder& mesh, const std::vector<Block>& blocks, size_t target, uint32_t seed) {
-    Random random(keyFrom(seed, 5, 0, 0));
+    Random random(keyFrom(seed, KeyPurpose::leaves, 0, 0));
     for (size_t i = 0; mesh.triangleCount() < target; ++i) {
         const Lot kerb = blocks[i % blocks.size()].kerb;
         const bool alongX = random.chance(0.5f), atLow = random.chance(0.5f);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kTrianglesPerBlock = 1'400;  // what a block looks finished with
 
-std::vector<float> streetLines(uint32_t blocks, uint32_t seed, uint32_t axis) {
+std::vector<float> streetLines(uint32_t blocks, uint32_t seed, KeyPurpose axis) {
     constexpr std::array kPitchesM{50.0f, 56.0f, 62.0f, 68.0f};
     const auto pitch = [&](int block) {
         return kPitchesM[Random(keyFrom(seed, axis, block, 0)).below(kPitchesM.size())];
@@ -63,9 +63,9 @@ constexpr float kGapM = 0.12f;  // between neighbours, so that no walls share a 
 
 }  // namespace
 
-uint64_t keyFrom(uint32_t seed, uint32_t purpose, int a, int b) {
+uint64_t keyFrom(uint32_t seed, KeyPurpose purpose, int a, int b) {
     const uint64_t place = static_cast<uint64_t>(static_cast<uint32_t>(a)) << 32 | static_cast<uint32_t>(b);
-    return mixedBits(mixedBits(place) ^ (static_cast<uint64_t>(seed) << 32 | purpose));
+    return mixedBits(mixedBits(place) ^ (static_cast<uint64_t>(seed) << 32 | static_cast<uint32_t>(purpose)));
 }
 
 StreetGrid planStreets(uint32_t triangles, uint32_t seed) {
@@ -76,7 +76,8 @@ StreetGrid planStreets(uint32_t triangles, uint32_t seed) {
         ++shorter;
         if (columns * rows <= wanted) continue;
         --shorter;
-        return {streetLines(columns, seed, 1), streetLines(rows, seed, 2)};
+        return {streetLines(columns, seed, KeyPurpose::xStreets),
+                streetLines(rows, seed, KeyPurpose::zStreets)};
     }
 }
 
@@ -85,8 +86,9 @@ std::vector<Block> planBlocks(const StreetGrid& grid, uint32_t seed) {
     for (size_t row = 0; row + 1 < grid.zM.size(); ++row)
         for (size_t column = 0; column + 1 < grid.xM.size(); ++column) {
             const glm::vec2 low(grid.xM[column], grid.zM[row]), high(grid.xM[column + 1], grid.zM[row + 1]);
-            blocks.push_back({Lot{low, high}.inset(kHalfRoadM), low, BlockKind::houses,
-                              keyFrom(seed, 3, static_cast<int>(low.x), static_cast<int>(low.y))});
+            blocks.push_back(
+                {Lot{low, high}.inset(kHalfRoadM), low, BlockKind::houses,
+                 keyFrom(seed, KeyPurpose::block, static_cast<int>(low.x), static_cast<int>(low.y))});
         }
     const auto distance = [](const Block& block) {
         return glm::dot(block.kerb.middleM(), block.kerb.middleM());

@@ -33,7 +33,8 @@ struct Block {
 };
 
 // The key of the random numbers for one purpose at one place.
-uint64_t keyFrom(uint32_t seed, uint32_t purpose, int a, int b);
+enum class KeyPurpose : uint32_t { xStreets = 1, zStreets = 2, hills = 4, leaves = 5, block = 10 };
+uint64_t keyFrom(uint32_t seed, KeyPurpose purpose, int a, int b);
 
 // As square as the number of blocks allows; at least the four blocks around the crossing.
 StreetGrid planStreets(uint32_t triangles, uint32_t seed);

@@ -196,7 +196,7 @@ Texture plasterFacade() {
 Texture stoneFacade() {
     Canvas canvas({kFacadePx, kFacadePx}, {});
     canvas.fill(variantArea(0), {196, 184, 160});
-    canvas.fill(variantArea(1), {158, 158, 160});
+    canvas.fill(variantArea(1), {170, 164, 154});
     for (int v = 0; v < 2; ++v) paintCourses(canvas, variantArea(v), {32, 16}, 0.06f, {112, 106, 98}, 31);
     canvas.cloud(canvas.all(), 0.09f, 4, 32);
     forEachCell(33, [&](Area cell, int, Random& random) {
@@ -297,7 +297,7 @@ Texture grass() {
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x)
             canvas.at(x, y) =
-                glm::mix(Color(84, 112, 54), Color(128, 144, 74), cloudyNoise(canvas.uv(x, y), 6, 71));
+                glm::mix(Color(96, 112, 66), Color(136, 144, 92), cloudyNoise(canvas.uv(x, y), 6, 71));
     canvas.grain(canvas.all(), 0.12f, 72);
     return canvas.texture("grass");
 }

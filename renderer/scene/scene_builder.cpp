@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -34,12 +33,12 @@ glm::dvec3 centreOf(const std::vector<MeshPart>& parts) {
     glm::dvec3 high(-std::numeric_limits<double>::infinity());
     for (const MeshPart& part : parts) {
         for (const glm::uvec3& triangle : part.triangles) {
-            for (glm::length_t corner = 0; corner < 3; ++corner) {
-                const glm::dvec3& p = part.positionsM[triangle[corner]];
-                if (!isFinite(p)) continue;
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-            }
+            const glm::dvec3& a = part.positionsM[triangle.x];
+            const glm::dvec3& b = part.positionsM[triangle.y];
+            const glm::dvec3& c = part.positionsM[triangle.z];
+            if (!unitNormal(glm::cross(b - a, c - a))) continue;
+            low = glm::min(low, glm::min(a, glm::min(b, c)));
+            high = glm::max(high, glm::max(a, glm::max(b, c)));
         }
     }
     return low.x <= high.x ? 0.5 * low + 0.5 * high : glm::dvec3(0);
@@ -51,6 +50,10 @@ public:
 
     void add(const MeshPart& part) {
         indexOf_.assign(part.positionsM.size(), kUnassigned);
+        // In a pass of its own: where g++ 12 at -O3 sees a double become float and double again, it skips the
+        // rounding, and a triangle without area would seem to have one.
+        rounded_.clear();
+        for (const glm::dvec3& p : part.positionsM) rounded_.emplace_back(p - scene_.originM);
         for (const glm::uvec3& triangle : part.triangles) addTriangle(part, triangle);
     }
 
@@ -58,28 +61,25 @@ public:
 
 private:
     void addTriangle(const MeshPart& part, const glm::uvec3& triangle) {
-        std::array<glm::vec3, 3> p;
-        for (glm::length_t i = 0; i < 3; ++i)
-            p[static_cast<size_t>(i)] = glm::vec3(part.positionsM[triangle[i]] - scene_.originM);
-        const glm::dvec3 cross =
-            glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0]));
-        const std::optional<glm::vec3> flat = unitNormal(cross);
-        if (!isFinite(p[0]) || !isFinite(p[1]) || !isFinite(p[2]) || !flat) {
+        const glm::vec3 a = rounded_[triangle.x], b = rounded_[triangle.y], c = rounded_[triangle.z];
+        const glm::dvec3 corner(a);
+        const std::optional<glm::vec3> flat =
+            unitNormal(glm::cross(glm::dvec3(b) - corner, glm::dvec3(c) - corner));
+        if (!isFinite(a) || !isFinite(b) || !isFinite(c) || !flat) {
             ++dropped_;
             return;
         }
         glm::uvec3 written;
-        for (glm::length_t i = 0; i < 3; ++i)
-            written[i] = vertex(part, triangle[i], p[static_cast<size_t>(i)], *flat);
+        for (glm::length_t i = 0; i < 3; ++i) written[i] = vertex(part, triangle[i], *flat);
         scene_.triangles.push_back(written);
     }
 
     // Vertices are shared between triangles only where the file gives a normal to share.
-    uint32_t vertex(const MeshPart& part, uint32_t index, const glm::vec3& position, const glm::vec3& flat) {
+    uint32_t vertex(const MeshPart& part, uint32_t index, const glm::vec3& flat) {
         if (!part.normals.empty() && indexOf_[index] != kUnassigned) return indexOf_[index];
         const auto written = static_cast<uint32_t>(scene_.positions.size());
         const bool hasUv = !part.uvs.empty() && isFinite(part.uvs[index]);
-        scene_.positions.push_back(position);
+        scene_.positions.push_back(rounded_[index]);
         scene_.normals.push_back(part.normals.empty() ? flat
                                                       : unitNormal(part.normals[index]).value_or(flat));
         scene_.uvs.push_back(hasUv ? part.uvs[index] : glm::vec2(0));
@@ -88,7 +88,8 @@ private:
     }
 
     Scene& scene_;
-    std::vector<uint32_t> indexOf_;  // in the scene, of the part's vertices
+    std::vector<uint32_t> indexOf_;   // in the scene, of the part's vertices
+    std::vector<glm::vec3> rounded_;  // the part's positions as the scene holds them
     size_t dropped_ = 0;
 };
 
