@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 namespace curvewall {

@@ -1,10 +1,12 @@
 #include "renderer/gl/gl_objects.h"
 
+
 #include "renderer/gl/program.h"
 #include "tests/support/gl_fixture.h"
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <type_traits>
 
 namespace curvewall {
