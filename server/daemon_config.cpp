@@ -94,7 +94,7 @@ DaemonConfig readDaemonConfig(const std::string& path) {
     const std::string text = readText(path, "the daemon's configuration");
     try {
         const nlohmann::json root = parseJson(text);
-        const DaemonConfig config = configFrom(JsonFields(root, ""), path);
+        DaemonConfig config = configFrom(JsonFields(root, ""), path);
         checkExposure(config, path);
         return config;
     } catch (const JsonSyntaxError& error) {
