@@ -1,6 +1,5 @@
 #include "renderer/names.h"
 
-#include <array>
 #include <cassert>
 #include <cstddef>
 
@@ -13,24 +12,25 @@ struct Named {
     std::string_view name;
 };
 
-constexpr std::array kMethods{Named{Method::piecewise, "piecewise"}, Named{Method::imageBased, "image-based"},
-                              Named{Method::reference, "reference"}};
-constexpr std::array kStyles{Named{Style::textured, "textured"}, Named{Style::unlit, "unlit"}};
-constexpr std::array kOutputKinds{Named{OutputKind::color, "color"}, Named{OutputKind::depth, "depth"},
-                                  Named{OutputKind::coverage, "coverage"},
-                                  Named{OutputKind::position, "position"}};
-constexpr std::array kImageFormats{Named{ImageFormat::png, "png"}, Named{ImageFormat::jpeg, "jpeg"},
-                                   Named{ImageFormat::exr, "exr"}};
+constexpr Named<Method> kMethods[] = {
+    {Method::piecewise, "piecewise"}, {Method::imageBased, "image-based"}, {Method::reference, "reference"}};
+constexpr Named<Style> kStyles[] = {{Style::textured, "textured"}, {Style::unlit, "unlit"}};
+constexpr Named<OutputKind> kOutputKinds[] = {{OutputKind::color, "color"},
+                                              {OutputKind::depth, "depth"},
+                                              {OutputKind::coverage, "coverage"},
+                                              {OutputKind::position, "position"}};
+constexpr Named<ImageFormat> kImageFormats[] = {
+    {ImageFormat::png, "png"}, {ImageFormat::jpeg, "jpeg"}, {ImageFormat::exr, "exr"}};
 
 template <class Enum, size_t count>
-std::optional<Enum> fromName(const std::array<Named<Enum>, count>& table, std::string_view name) {
+std::optional<Enum> fromName(const Named<Enum> (&table)[count], std::string_view name) {
     for (const auto& entry : table)
         if (entry.name == name) return entry.value;
     return std::nullopt;
 }
 
 template <class Enum, size_t count>
-std::string_view toName(const std::array<Named<Enum>, count>& table, Enum value) {
+std::string_view toName(const Named<Enum> (&table)[count], Enum value) {
     for (const auto& entry : table)
         if (entry.value == value) return entry.name;
     assert(false && "every value has a name");
@@ -38,8 +38,8 @@ std::string_view toName(const std::array<Named<Enum>, count>& table, Enum value)
 }
 
 template <class Enum, size_t count>
-std::string allNames(const std::array<Named<Enum>, count>& table) {
-    std::string names(table.front().name);
+std::string allNames(const Named<Enum> (&table)[count]) {
+    std::string names(table[0].name);
     for (size_t i = 1; i < count; ++i) {
         names += i + 1 == count ? " or " : ", ";
         names += table[i].name;

@@ -3,13 +3,11 @@
 #include "server/frame_maker.h"
 
 #include <boost/asio/post.hpp>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <csignal>
 #include <iostream>
-#include <memory>
 #include <utility>
 
 namespace curvewall {
@@ -89,8 +87,6 @@ void Daemon::sweepLater() {
 }
 
 int runDaemon(const DaemonConfig& config) {
-    spdlog::set_default_logger(std::make_shared<spdlog::logger>(
-        "curvewall", std::make_shared<spdlog::sinks::stderr_color_sink_mt>()));
     Daemon daemon(config, [count = config.maxLoadedScenes] { return makeFrameMaker(count); });
     daemon.stopOnSignals();
     std::cout << "listening on " << daemon.url() << std::endl;

@@ -44,7 +44,8 @@ private:
     boost::asio::signal_set signals_;
 };
 
-// Prints "listening on URL" as the first line of stdout; the log goes to stderr. Returns the exit code.
+// Prints "listening on URL" as the first line of stdout, where nothing else may be written before it: the log
+// is the caller's to send elsewhere. Returns the exit code.
 int runDaemon(const DaemonConfig& config);
 
 }  // namespace curvewall

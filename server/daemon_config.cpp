@@ -15,10 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string readText(const std::string& path, const std::string& expected) {
+    std::error_code error;
     std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file || fs::is_directory(path)) throw InputError(path, "", expected, "nothing readable");
-    return text;
+    if (!file || fs::is_directory(path, error)) throw InputError(path, "", expected, "nothing readable");
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string readToken(const std::string& path) {
@@ -94,7 +94,7 @@ DaemonConfig readDaemonConfig(const std::string& path) {
     const std::string text = readText(path, "the daemon's configuration");
     try {
         const nlohmann::json root = parseJson(text);
-        const DaemonConfig config = configFrom(JsonFields(root, ""), path);
+        DaemonConfig config = configFrom(JsonFields(root, ""), path);
         checkExposure(config, path);
         return config;
     } catch (const JsonSyntaxError& error) {

@@ -17,7 +17,7 @@ namespace http = boost::beast::http;
 using boost::beast::error_code;
 
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
-constexpr size_t kReadAheadBytes = 64 * 1024;
+constexpr size_t kReadAheadBytes = size_t{64} * 1024;
 static_assert(kReadAheadBytes > kMaxHeaderBytes);
 
 // RFC 9110, 5.6.7: English names whatever the locale.

@@ -87,7 +87,7 @@ private:
     bool keepAlive_ = false;
     bool headOnly_ = false;
     unsigned version_ = 11;
-    std::array<char, 16 * 1024> chunk_;
+    std::array<char, size_t{16} * 1024> chunk_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
     std::optional<Response> response_;

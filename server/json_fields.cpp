@@ -30,7 +30,9 @@ std::string formatted(double number) {
 class StructureCheck {
 public:
     bool operator()(int depth, json::parse_event_t event, json& parsed) {
-        if (depth > kMaxDepth)
+        const bool opens =
+            event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+        if (opens && depth >= kMaxDepth)
             throw JsonSyntaxError("nested more than " + std::to_string(kMaxDepth) + " levels deep");
         if (event == json::parse_event_t::object_start) keysOfOpenObjects_.emplace_back();
         if (event == json::parse_event_t::object_end) keysOfOpenObjects_.pop_back();
@@ -66,6 +68,8 @@ FieldError::FieldError(Kind kindOfError, std::string fieldName, std::string what
       found(std::move(whatWasFound)) {}
 
 json parseJson(std::string_view text) {
+    // nlohmann takes a zero byte for the end and would not look at what follows.
+    if (text.find('\0') != std::string_view::npos) throw JsonSyntaxError("there is a zero byte in it");
     StructureCheck check;
     try {
         return json::parse(text, [&check](int depth, json::parse_event_t event, json& parsed) {

@@ -190,8 +190,7 @@ RenderCall decodeRenderCall(std::string_view body, const Library& library, uint6
 }
 
 Answer answerTo(RenderOutcome outcome) {
-    return std::visit([](auto&& alternative) { return answerFor(std::move(alternative)); },
-                      std::move(outcome));
+    return std::visit([](auto& alternative) { return answerFor(std::move(alternative)); }, outcome);
 }
 
 Answer answerToCurrentException() {

@@ -21,20 +21,15 @@ RenderQueue::~RenderQueue() {
 
 void RenderQueue::submit(Job job) {
     sweep();
-    std::optional<Refusal> refusal;
-    {
-        std::scoped_lock lock(mutex_);
-        if (stopping_)
-            refusal = Refusal{Refusal::Reason::stopping, retryAfter()};
-        else if (waiting_.size() >= settings_.length)
-            refusal = Refusal{Refusal::Reason::full, retryAfter()};
-        else
-            waiting_.push_back({std::move(job), settings_.now()});
-    }
-    if (refusal)
-        job.done(*refusal);
-    else
+    std::unique_lock lock(mutex_);
+    if (!stopping_ && waiting_.size() < settings_.length) {
+        waiting_.push_back({std::move(job), settings_.now()});
         changed_.notify_one();
+        return;
+    }
+    const Refusal refusal{stopping_ ? Refusal::Reason::stopping : Refusal::Reason::full, retryAfter()};
+    lock.unlock();
+    job.done(refusal);
 }
 
 void RenderQueue::sweep() {
