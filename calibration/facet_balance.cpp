@@ -122,16 +122,27 @@ Eigen::VectorXd solveStep(const PieceMesh& mesh, const std::vector<Sample>& samp
     Eigen::SparseMatrix<double> jacobian(target.size(), size);
     jacobian.setFromTriplets(entries.begin(), entries.end());
     Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
-    // Scaling all points about the eye changes nothing on the screen; a trace of damping picks one answer.
+    // Some motions change nothing on the screen; a trace of damping picks one answer.
     const double damping = 1e-9 * normal.diagonal().maxCoeff();
     for (Eigen::Index i = 0; i < size; ++i) normal.coeffRef(i, i) += damping;
     return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(jacobian.transpose() * target);
 }
 
+double summedDistanceM(const std::vector<PieceVertex>& vertices) {
+    double sum = 0;
+    for (const PieceVertex& vertex : vertices) sum += glm::length(vertex.m);
+    return sum;
+}
+
+// Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets stay as far
+// from the eye as the wall, for depth is measured by them.
 void moveVertices(std::vector<PieceVertex>& vertices, const Motion& motion, const Eigen::VectorXd& step) {
+    const double distanceM = summedDistanceM(vertices);
     for (size_t v = 0; v < vertices.size(); ++v)
         for (size_t block : motion.blocksOf(v))
             for (int c = 0; c < 3; ++c) vertices[v].m[c] += step[static_cast<Eigen::Index>(3 * block) + c];
+    const double scale = distanceM / summedDistanceM(vertices);
+    for (PieceVertex& vertex : vertices) vertex.m *= scale;
 }
 
 // Lawson: a sample's weight grows with its error, so the fit turns towards the worst ones.

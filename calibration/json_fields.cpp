@@ -1,173 +1,204 @@
 #include "calibration/json_fields.h"
 
-#include "calibration/errors.h"
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace curvewall {
 namespace {
 
 using nlohmann::json;
 
-std::string shown(const json& value) {
-    std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-    if (text.size() > 60) text = text.substr(0, 57) + "...";
-    return text;
+constexpr int kMaxDepth = 16;
+constexpr size_t kMaxQuotedCharacters = 40;
+
+// nlohmann's messages begin with a tag in brackets that helps nobody outside the library.
+std::string withoutTag(std::string_view message) {
+    const size_t end = message.find("] ");
+    return std::string(end == std::string_view::npos ? message : message.substr(end + 2));
 }
 
-std::string shown(double value) {
-    std::ostringstream out;
-    out << value;
-    return out.str();
+std::string formatted(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
 }
 
-std::string shown(Range range) {
-    if (std::isinf(range.most) && std::isinf(range.least)) return "";
-    if (std::isinf(range.most)) return (range.aboveLeast ? " above " : " of at least ") + shown(range.least);
-    return (range.aboveLeast ? " above " : " from ") + shown(range.least) +
-           (range.aboveLeast ? " and at most " : " to ") + shown(range.most);
+// Refuses what nlohmann lets through: nesting bombs and repeated keys, of which it would keep the last.
+class StructureCheck {
+public:
+    bool operator()(int depth, json::parse_event_t event, json& parsed) {
+        const bool opens =
+            event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+        if (opens && depth >= kMaxDepth)
+            throw JsonSyntaxError("nested more than " + std::to_string(kMaxDepth) + " levels deep");
+        if (event == json::parse_event_t::object_start) keysOfOpenObjects_.emplace_back();
+        if (event == json::parse_event_t::object_end) keysOfOpenObjects_.pop_back();
+        if (event == json::parse_event_t::key &&
+            !keysOfOpenObjects_.back().insert(parsed.get<std::string>()).second)
+            throw JsonSyntaxError("the key " + describe(parsed) + " is given twice");
+        return true;
+    }
+
+private:
+    std::vector<std::set<std::string>> keysOfOpenObjects_;
+};
+
+std::string formatted(Range range) {
+    return (range.aboveMin ? " above " : " from ") + formatted(range.min) +
+           (range.aboveMin ? ", at most " : " to ") + formatted(range.max);
 }
 
-}  // namespace
-
-JsonFields::JsonFields(std::string file, std::string path, const json& object)
-    : file_(std::move(file)), path_(std::move(path)), object_(&object) {
-    if (!object.is_object()) throw InputError(file_, path_, "an object", shown(object));
-}
-
-std::string JsonFields::pathOf(std::string_view key) const {
-    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
-}
-
-void JsonFields::fail(std::string_view key, const std::string& expected, const std::string& found) const {
-    throw InputError(file_, pathOf(key), expected, found);
-}
-
-bool JsonFields::has(std::string_view key) const { return object_->contains(key); }
-
-const json* JsonFields::find(std::string_view key) {
-    known_.emplace_back(key);
-    const auto field = object_->find(key);
-    return field == object_->end() ? nullptr : &*field;
-}
-
-const json& JsonFields::require(std::string_view key, const std::string& expected) {
-    const json* value = find(key);
-    if (!value) fail(key, expected, "nothing");
-    return *value;
-}
-
-std::string JsonFields::text(std::string_view key) {
-    const json& value = require(key, "a text");
-    if (!value.is_string() || value.get_ref<const std::string&>().empty()) fail(key, "a text", shown(value));
-    return value.get<std::string>();
-}
-
-std::string JsonFields::text(std::string_view key, std::string fallback) {
-    return has(key) ? text(key) : (known_.emplace_back(key), std::move(fallback));
-}
-
-double JsonFields::checkedNumber(std::string_view key, const json& value, Range range, bool whole) const {
-    const std::string expected = (whole ? "a whole number" : "a number") + shown(range);
-    if (!value.is_number()) fail(key, expected, shown(value));
+double checkedNumber(const json& value, const std::string& field, Range range) {
+    if (!value.is_number()) throw FieldError(FieldError::Kind::shape, field, "a number", describe(value));
     const double number = value.get<double>();
-    const bool inRange =
-        (range.aboveLeast ? number > range.least : number >= range.least) && number <= range.most;
-    if (!std::isfinite(number) || !inRange || (whole && number != std::floor(number)))
-        fail(key, expected, shown(value));
+    if (!(number >= range.min && number <= range.max) || (range.aboveMin && number == range.min))
+        throw FieldError(FieldError::Kind::value, field, "a number" + formatted(range), describe(value));
     return number;
 }
 
-double JsonFields::number(std::string_view key, Range range) {
-    return checkedNumber(key, require(key, "a number" + shown(range)), range, false);
+int64_t checkedWholeNumber(const json& value, const std::string& field, int64_t min, int64_t max) {
+    // Through double, so that 16.0 is 16 and no integer type overflows before the range is known to hold.
+    if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
+        throw FieldError(FieldError::Kind::shape, field, "a whole number", describe(value));
+    if (const double number = value.get<double>();
+        number < static_cast<double>(min) || number > static_cast<double>(max))
+        throw FieldError(FieldError::Kind::value, field,
+                         "a whole number from " + std::to_string(min) + " to " + std::to_string(max),
+                         describe(value));
+    return value.get<int64_t>();
 }
 
-double JsonFields::number(std::string_view key, Range range, double fallback) {
-    const json* value = find(key);
-    return value ? checkedNumber(key, *value, range, false) : fallback;
-}
+std::string placeOf(const std::string& list, size_t index) { return list + "[" + std::to_string(index) + "]"; }
 
-int JsonFields::integer(std::string_view key, Range range) {
-    return static_cast<int>(checkedNumber(key, require(key, "a whole number" + shown(range)), range, true));
-}
+}  // namespace
 
-int JsonFields::integer(std::string_view key, Range range, int fallback) {
-    const json* value = find(key);
-    return value ? static_cast<int>(checkedNumber(key, *value, range, true)) : fallback;
-}
+FieldError::FieldError(Kind kindOfError, std::string fieldName, std::string whatWasExpected,
+                       std::string whatWasFound)
+    : std::runtime_error((fieldName.empty() ? "" : fieldName + ": ") + "expected " + whatWasExpected +
+                         ", found " + whatWasFound),
+      kind(kindOfError),
+      field(std::move(fieldName)),
+      expected(std::move(whatWasExpected)),
+      found(std::move(whatWasFound)) {}
 
-glm::dvec3 JsonFields::checkedVector3(std::string_view key, const json& value, Range range) const {
-    if (!value.is_array() || value.size() != 3) fail(key, "three numbers [x, y, z]", shown(value));
-    glm::dvec3 vector;
-    for (int i = 0; i < 3; ++i)
-        vector[i] = checkedNumber(std::string(key) + "[" + std::to_string(i) + "]",
-                                  value[static_cast<size_t>(i)], range, false);
-    return vector;
-}
-
-glm::dvec3 JsonFields::vector3(std::string_view key, Range range) {
-    return checkedVector3(key, require(key, "three numbers [x, y, z]"), range);
-}
-
-glm::dvec3 JsonFields::vector3(std::string_view key, Range range, glm::dvec3 fallback) {
-    const json* value = find(key);
-    return value ? checkedVector3(key, *value, range) : fallback;
-}
-
-const json& JsonFields::array(std::string_view key, size_t length) {
-    const std::string expected =
-        length == 0 ? "a list with at least one entry" : "a list of " + std::to_string(length) + " entries";
-    const json& value = require(key, expected);
-    if (!value.is_array() || (length == 0 ? value.empty() : value.size() != length))
-        fail(key, expected, shown(value));
-    return value;
-}
-
-JsonFields JsonFields::object(std::string_view key) {
-    return {file_, pathOf(key), require(key, "an object")};
-}
-
-JsonFields JsonFields::object(std::string_view key, const json& fallback) {
-    const json* value = find(key);
-    return {file_, pathOf(key), value ? *value : fallback};
-}
-
-void JsonFields::rejectOthers() const {
-    for (const auto& [key, value] : object_->items()) {
-        if (std::ranges::find(known_, key) != known_.end()) continue;
-        std::string names;
-        for (const std::string& name : known_) names += (names.empty() ? "" : ", ") + name;
-        fail(key, "one of the keys " + names, "an unknown key");
-    }
-}
-
-json readJsonFile(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::stringstream bytes;
-    // The buffer of a directory opens but does not read.
-    if (!in || !(bytes << in.rdbuf())) throw InputError(path, "", "a readable JSON file", "none that opens");
-
-    std::vector<std::set<std::string>> keysOfOpenObjects;
-    std::string repeated;
-    const auto noticeRepeatedKeys = [&](int, json::parse_event_t event, json& parsed) {
-        if (event == json::parse_event_t::object_start) keysOfOpenObjects.emplace_back();
-        if (event == json::parse_event_t::object_end) keysOfOpenObjects.pop_back();
-        if (event == json::parse_event_t::key &&
-            !keysOfOpenObjects.back().insert(parsed.get<std::string>()).second)
-            repeated = parsed.get<std::string>();
-        return true;
-    };
+json parseJson(std::string_view text) {
+    // nlohmann takes a zero byte for the end and would not look at what follows.
+    if (text.find('\0') != std::string_view::npos) throw JsonSyntaxError("there is a zero byte in it");
+    StructureCheck check;
     try {
-        json value = json::parse(bytes.str(), noticeRepeatedKeys);
-        if (!repeated.empty()) throw InputError(path, repeated, "each key once", "it twice in one object");
-        return value;
-    } catch (const json::parse_error& error) {
-        throw InputError(path, "", "JSON", error.what());
+        return json::parse(text, [&check](int depth, json::parse_event_t event, json& parsed) {
+            return check(depth, event, parsed);
+        });
+    } catch (const json::exception& error) {
+        throw JsonSyntaxError(withoutTag(error.what()));
     }
+}
+
+std::string describe(const json& value) {
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "a list";
+    // The ASCII form cannot be cut in the middle of a character.
+    std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+    if (text.size() <= kMaxQuotedCharacters) return text;
+    text.resize(kMaxQuotedCharacters);
+    return text + (value.is_string() ? "...\"" : "...");
+}
+
+JsonFields::JsonFields(const json& object, std::string name) : object_(object), name_(std::move(name)) {
+    if (!object.is_object()) throw FieldError(FieldError::Kind::shape, name_, "an object", describe(object));
+}
+
+void JsonFields::require(std::string_view key) const {
+    if (!has(key)) throw FieldError(FieldError::Kind::shape, nameOf(key), "a value", "nothing");
+}
+
+std::optional<std::string> JsonFields::text(const char* key) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_string())
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a string", describe(*value));
+    return value->get<std::string>();
+}
+
+std::optional<double> JsonFields::number(const char* key, Range range) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    return checkedNumber(*value, nameOf(key), range);
+}
+
+std::optional<int64_t> JsonFields::wholeNumber(const char* key, int64_t min, int64_t max) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    return checkedWholeNumber(*value, nameOf(key), min, max);
+}
+
+std::optional<std::vector<double>> JsonFields::numbers(const char* key, size_t count, Range range) {
+    const json* list = findList(key, count);
+    if (!list) return std::nullopt;
+    std::vector<double> numbers;
+    for (const json& value : *list)
+        numbers.push_back(checkedNumber(value, placeOf(nameOf(key), numbers.size()), range));
+    return numbers;
+}
+
+std::optional<std::vector<int64_t>> JsonFields::wholeNumbers(const char* key, size_t count, int64_t min,
+                                                             int64_t max) {
+    const json* list = findList(key, count);
+    if (!list) return std::nullopt;
+    std::vector<int64_t> numbers;
+    for (const json& value : *list)
+        numbers.push_back(checkedWholeNumber(value, placeOf(nameOf(key), numbers.size()), min, max));
+    return numbers;
+}
+
+std::vector<JsonFields> JsonFields::objects(const char* key) {
+    const json* list = find(key);
+    if (!list || !list->is_array() || list->empty())
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a list with one entry at least",
+                         !list ? "nothing" : list->is_array() ? "none" : describe(*list));
+    std::vector<JsonFields> objects;
+    for (const json& value : *list) objects.emplace_back(value, placeOf(nameOf(key), objects.size()));
+    return objects;
+}
+
+std::optional<JsonFields> JsonFields::object(const char* key) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    return JsonFields(*value, nameOf(key));
+}
+
+void JsonFields::refuseUnknownKeys() const {
+    for (const auto& [key, value] : object_.items()) {
+        if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+        std::string expected = "only the keys ";
+        for (size_t i = 0; i < known_.size(); ++i) {
+            if (i > 0) expected += ", ";
+            expected += known_[i];
+        }
+        throw FieldError(FieldError::Kind::shape, name_, expected, "the key " + describe(key));
+    }
+}
+
+std::string JsonFields::nameOf(std::string_view key) const {
+    return name_.empty() ? std::string(key) : name_ + "." + std::string(key);
+}
+
+const json* JsonFields::find(const char* key) {
+    known_.emplace_back(key);
+    const auto found = object_.find(key);
+    return found == object_.end() ? nullptr : &*found;
+}
+
+const json* JsonFields::findList(const char* key, size_t count) {
+    const json* value = find(key);
+    if (!value) return nullptr;
+    if (!value->is_array() || value->size() != count)
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a list of " + std::to_string(count) + " numbers",
+                         value->is_array() ? "a list of " + std::to_string(value->size()) : describe(*value));
+    return value;
 }
 
 }  // namespace curvewall

@@ -1,65 +1,89 @@
 #pragma once
-// Strict reading of JSON objects: every field is asked for by name, its type and range are checked, and what
-// was not asked for is an error. Messages name the file and the path of the field.
+// Strict reading of JSON that a person or a stranger wrote: no unknown key, no repeated key, no wrong type
+// and no number out of range gets past this file, and each complaint names the field.
 
-#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <initializer_list>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace curvewall {
 
-// Both ends are allowed unless `aboveLeast` makes the lower one exclusive.
-struct Range {
-    double least;
-    double most;
-    bool aboveLeast = false;
+// Not JSON at all, nested too deeply, or a key given twice.
+class JsonSyntaxError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
 };
 
+class FieldError : public std::runtime_error {
+public:
+    enum class Kind {
+        shape,  // a key missing or unknown, or a value of the wrong type
+        value,  // the right type with a value that is not possible
+    };
+    FieldError(Kind kindOfError, std::string fieldName, std::string whatWasExpected,
+               std::string whatWasFound);
+
+    Kind kind;
+    std::string field;
+    std::string expected;
+    std::string found;
+};
+
+nlohmann::json parseJson(std::string_view text);
+
+// A value as messages quote it; long strings are cut.
+std::string describe(const nlohmann::json& value);
+
+struct Range {
+    double min;
+    double max;
+    bool aboveMin = false;  // the lower end itself is not allowed
+};
+
+// The members of one JSON object. Reading a key makes it a known one.
 class JsonFields {
 public:
-    // `path` is the object's place in the file ("displays[0].projection"), empty for the root.
-    // Throws InputError when `object` is not an object.
-    JsonFields(std::string file, std::string path, const nlohmann::json& object);
+    // `name` is how messages call the object, empty for the outermost. Throws FieldError unless it is one.
+    JsonFields(const nlohmann::json& object, std::string name);
 
-    // Each throws InputError when the field is missing (the forms without a fallback) or not as expected.
-    std::string text(std::string_view key);
-    double number(std::string_view key, Range range);
-    double number(std::string_view key, Range range, double fallback);
-    int integer(std::string_view key, Range range);
-    int integer(std::string_view key, Range range, int fallback);
-    glm::dvec3 vector3(std::string_view key, Range range);
-    glm::dvec3 vector3(std::string_view key, Range range, glm::dvec3 fallback);
-    const nlohmann::json& array(std::string_view key,
-                                size_t length);  // exactly so long; 0: at least one entry
-    JsonFields object(std::string_view key);
-    std::string text(std::string_view key, std::string fallback);
-    JsonFields object(std::string_view key, const nlohmann::json& fallback);
-    bool has(std::string_view key) const;
+    bool has(std::string_view key) const { return object_.contains(key); }
+    void require(std::string_view key) const;
 
-    // Throws InputError for the first field that nobody asked for. Call it last.
-    void rejectOthers() const;
+    // Nothing when the key is absent; FieldError when the value does not fit.
+    std::optional<std::string> text(const char* key);
+    std::optional<double> number(const char* key, Range range);
+    std::optional<int64_t> wholeNumber(const char* key, int64_t min, int64_t max);
+    std::optional<std::vector<double>> numbers(const char* key, size_t count, Range range);
+    std::optional<std::vector<int64_t>> wholeNumbers(const char* key, size_t count, int64_t min, int64_t max);
+    std::vector<JsonFields> objects(const char* key);  // a list that must be there, with one entry at least
+    std::optional<JsonFields> object(const char* key);
 
-    [[noreturn]] void fail(std::string_view key, const std::string& expected, const std::string& found) const;
-    std::string pathOf(std::string_view key) const;
-    const std::string& file() const { return file_; }
+    // The same for a key that must be there.
+    template <class Value>
+    Value required(const char* key, std::optional<Value> value) const {
+        require(key);
+        return std::move(*value);
+    }
+
+    // To be called when every known key was read.
+    void refuseUnknownKeys() const;
+
+    std::string nameOf(std::string_view key) const;
 
 private:
-    const nlohmann::json* find(std::string_view key);
-    const nlohmann::json& require(std::string_view key, const std::string& expected);
-    double checkedNumber(std::string_view key, const nlohmann::json& value, Range range, bool whole) const;
-    glm::dvec3 checkedVector3(std::string_view key, const nlohmann::json& value, Range range) const;
+    const nlohmann::json* find(const char* key);
+    const nlohmann::json* findList(const char* key, size_t count);
 
-    std::string file_;
-    std::string path_;
-    const nlohmann::json* object_;
-    std::vector<std::string> known_;
+    const nlohmann::json& object_;
+    std::string name_;
+    std::vector<std::string_view> known_;
 };
-
-// Parses a whole file. Throws InputError with line and column for what is not JSON, and for repeated keys.
-nlohmann::json readJsonFile(const std::string& path);
 
 }  // namespace curvewall

@@ -83,8 +83,8 @@ int faceSizeFor(const Display& display, const std::vector<glm::vec4>& rays) {
         if ((i + 1) % width != 0) step(rays[i], rays[i + 1]);
         if (i + width < rays.size()) step(rays[i], rays[i + width]);
     }
-    // Rays are single precision: below this, a step is rounding.
-    const double sizePx = 1 / std::max(smallestStep, 0.5 / kLargestFacePx);
+    // Rays are single precision, so a step is known to about a thousandth.
+    const double sizePx = 0.999 / std::max(smallestStep, 0.5 / kLargestFacePx);
     return std::clamp(static_cast<int>(std::ceil(sizePx / 16)) * 16, 16, kLargestFacePx);
 }
 

@@ -1,7 +1,6 @@
 #include "server/daemon_config.h"
 
-#include "calibration/errors.h"
-#include "server/json_fields.h"
+#include "calibration/json_file.h"
 
 #include <boost/asio/ip/address.hpp>
 
@@ -13,13 +12,6 @@ namespace curvewall {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string readText(const std::string& path, const std::string& expected) {
-    std::error_code error;
-    std::ifstream file(path, std::ios::binary);
-    if (!file || fs::is_directory(path, error)) throw InputError(path, "", expected, "nothing readable");
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::string readToken(const std::string& path) {
     std::string token = readText(path, "a file that holds the token");
@@ -91,17 +83,11 @@ void checkExposure(const DaemonConfig& config, const std::string& path) {
 }  // namespace
 
 DaemonConfig readDaemonConfig(const std::string& path) {
-    const std::string text = readText(path, "the daemon's configuration");
-    try {
-        const nlohmann::json root = parseJson(text);
-        DaemonConfig config = configFrom(JsonFields(root, ""), path);
+    return readJsonFile(path, "the daemon's configuration", [&](const JsonFields& root) {
+        DaemonConfig config = configFrom(root, path);
         checkExposure(config, path);
         return config;
-    } catch (const JsonSyntaxError& error) {
-        throw InputError(path, "", "JSON", error.what());
-    } catch (const FieldError& error) {
-        throw InputError(path, error.field, error.expected, error.found);
-    }
+    });
 }
 
 }  // namespace curvewall

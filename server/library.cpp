@@ -3,7 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/wall_reader.h"
 #include "renderer/scene/load_scene.h"
-#include "server/json_fields.h"
+#include "calibration/json_fields.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>

@@ -2,7 +2,7 @@
 
 #include "calibration/errors.h"
 #include "renderer/names.h"
-#include "server/json_fields.h"
+#include "calibration/json_fields.h"
 
 #include <glm/trigonometric.hpp>
 #include <spdlog/spdlog.h>
@@ -39,7 +39,7 @@ void readName(JsonFields& fields, const char* key, std::optional<Enum> (*fromNam
 
 Camera decodeCamera(JsonFields fields) {
     fields.require("position");
-    const auto position = *fields.vector("position", kPositionM);
+    const auto position = *fields.numbers("position", 3, kPositionM);
     const auto angleRad = [&fields](const char* key) {
         return glm::radians(fields.number(key, kAngleDeg).value_or(0));
     };

@@ -1,4 +1,4 @@
-#include "server/json_fields.h"
+#include "calibration/json_fields.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(JsonFields, ComplaintsNameTheFieldAndQuoteWhatWasFound) {
               }),
               "camera.yaw_deg: expected a number, found \"abc\"");
     EXPECT_EQ(complaint([&] {
-                  fields.vector("list", {0, 9});
+                  fields.numbers("list", 3, {0, 9});
               }),
               "camera.list[1]: expected a number, found \"two\"");
     EXPECT_EQ(complaint([&] { fields.wholeNumber("samples", 1, 9); }),
