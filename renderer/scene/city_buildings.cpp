@@ -22,11 +22,15 @@ std::array<glm::vec2, 4> cornersOf(const Lot& lot) {
              {lot.lowM.x, lot.lowM.y}}};
 }
 
+int baysOf(glm::vec2 from, glm::vec2 to) {
+    return std::max(1, static_cast<int>(std::lround(glm::distance(from, to) / kFloorHeightM)));
+}
+
 // One wall of `floors` floors, over a strip of shops of `shopHeightM` unless that is 0. Shops and facade are
 // cut at the same places, so that they meet without gaps.
 void addWall(MeshBuilder& mesh, glm::vec2 from, glm::vec2 to, float bottomM, float shopHeightM, int floors,
              const Facade& facade, Random& random) {
-    const int bays = std::max(1, static_cast<int>(glm::distance(from, to) / kFloorHeightM + 0.5f));
+    const int bays = baysOf(from, to);
     const int segments = (bays + kFacadeVariantBays - 1) / kFacadeVariantBays;
     const float middleM = bottomM + shopHeightM;
     const float topM = middleM + static_cast<float>(floors) * kFloorHeightM;
@@ -210,7 +214,7 @@ void addBalcony(MeshBuilder& mesh, glm::vec2 from, glm::vec2 to, float floorM) {
 
 void addBalconies(MeshBuilder& mesh, glm::vec2 from, glm::vec2 to, float firstFloorM, int floors,
                   Random& random) {
-    const int bays = std::max(1, static_cast<int>(glm::distance(from, to) / kFloorHeightM + 0.5f));
+    const int bays = baysOf(from, to);
     const auto bay = static_cast<float>(random.below(static_cast<uint32_t>(bays)));
     const glm::vec2 left = glm::mix(from, to, (bay + 0.1f) / static_cast<float>(bays));
     const glm::vec2 right = glm::mix(from, to, (bay + 0.9f) / static_cast<float>(bays));

@@ -65,9 +65,10 @@ inline constexpr uint32_t kPaintRows = 3;
 
 // The middle of a swatch: constant over a triangle, so that only texture level 0 is ever used.
 constexpr glm::vec2 paintUv(Paint paint) {
-    const auto index = static_cast<uint32_t>(paint);
-    return {(static_cast<float>(index % kPaintColumns) + 0.5f) / static_cast<float>(kPaintColumns),
-            (static_cast<float>(index / kPaintColumns) + 0.5f) / static_cast<float>(kPaintRows)};
+    const uint32_t column = static_cast<uint32_t>(paint) % kPaintColumns;
+    const uint32_t row = static_cast<uint32_t>(paint) / kPaintColumns;
+    return {(static_cast<float>(column) + 0.5f) / static_cast<float>(kPaintColumns),
+            (static_cast<float>(row) + 0.5f) / static_cast<float>(kPaintRows)};
 }
 
 // Appends materials, in the order of CityMaterial, and their textures.

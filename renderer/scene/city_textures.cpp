@@ -354,7 +354,7 @@ Texture roofTiles() {
 
 Texture paintSwatches() {
     constexpr int kSwatchPx = 16;
-    constexpr std::array<Color, kPaintColumns * kPaintRows> kColors{{
+    constexpr std::array<Color, size_t{kPaintColumns} * kPaintRows> kColors{{
         {236, 234, 228}, {198, 196, 190}, {150, 150, 148}, {92, 94, 96},    {40, 42, 44},   {232, 220, 190},
         {206, 186, 146}, {132, 96, 66},   {86, 62, 44},    {172, 92, 64},   {182, 48, 42},  {118, 40, 38},
         {208, 124, 52},  {222, 182, 66},  {96, 132, 72},   {46, 78, 58},    {62, 118, 118}, {60, 98, 150},

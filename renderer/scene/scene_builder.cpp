@@ -99,6 +99,7 @@ void setGeometry(Scene& scene, const std::vector<MeshPart>& parts) {
     scene.originM = centreOf(parts);
 
     std::vector<const MeshPart*> byMaterial;
+    byMaterial.reserve(parts.size());
     for (const MeshPart& part : parts) byMaterial.push_back(&part);
     std::stable_sort(byMaterial.begin(), byMaterial.end(),
                      [](const MeshPart* a, const MeshPart* b) { return a->material < b->material; });

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <memory>
 #include <string_view>
 
@@ -34,7 +35,7 @@ std::vector<glm::u8vec4> texelsFromLinear(const LinearImage& image) {
     texels.reserve(image.size());
     for (const glm::vec4& c : image)
         texels.emplace_back(srgbByteFromLinear(c.r), srgbByteFromLinear(c.g), srgbByteFromLinear(c.b),
-                            static_cast<uint8_t>(c.a * 255.0f + 0.5f));
+                            static_cast<uint8_t>(std::lround(c.a * 255.0f)));
     return texels;
 }
 

@@ -10,6 +10,9 @@
 #include <iterator>
 #include <numeric>
 
+// OpenImageIO's PNG reader loses its message where libpng jumps out of it.
+extern "C" const char* __lsan_default_suppressions() { return "leak:OpenImageIO"; }  // NOLINT
+
 namespace curvewall {
 namespace {
 
@@ -103,7 +106,7 @@ TEST(DecodeImage, RefusesWhatItCannotRead) {
     EXPECT_THAT(refuse("\xff\xd8\xff\xe0junk"), HasSubstr("a readable image"));
 }
 
-TEST(DecodeImage, RefusesATruncatedPngOrReadsIt) {
+TEST(DecodeImage, SurvivesATruncatedPng) {
     const test::TemporaryFolder folder;
     std::vector<uint8_t> noise(64 * 64 * 3);
     for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<uint8_t>(i * i * 31 >> 3);
