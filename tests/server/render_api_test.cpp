@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"camera", "here"}}, R"(camera: expected an object, found "here")"},
         Mistake{{{"camera", json::object()}}, "camera.position: expected a value, found nothing"},
         Mistake{{{"camera", {{"position", {1, 2}}}}},
-                "camera.position: expected a list of three numbers, found a list of 2"},
+                "camera.position: expected a list of 3 numbers, found a list of 2"},
         Mistake{{{"camera", {{"position", {1, 2, "3"}}}}},
                 R"(camera.position[2]: expected a number, found "3")"},
         Mistake{{{"camera", {{"position", {1, 2, 3}}, {"yaw_deg", "abc"}}}},
