@@ -11,10 +11,6 @@ namespace {
 constexpr uint32_t kGroupSize = 128;
 constexpr uint64_t kPairBytes = 8;
 
-struct DrawCommand {
-    uint32_t count, instanceCount, first, baseInstance;
-};
-
 uint32_t groupsFor(uint32_t items, uint32_t groupSize) { return (items + groupSize - 1) / groupSize; }
 
 uint32_t largestCapacity() {
@@ -35,7 +31,8 @@ std::vector<MaterialRange> rangesWithin(const SceneChunk& chunk, uint32_t first,
 }
 
 GlProgram computeProgram(std::string_view file, const std::string& mode) {
-    return makeProgram({{GL_COMPUTE_SHADER, file}}, {mode, "GROUP_SIZE " + std::to_string(kGroupSize)});
+    return makeProgram({{GL_COMPUTE_SHADER, file}}, {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
+                        "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u"});
 }
 
 void setView(const GlProgram& program, const SceneView& view) {
@@ -86,7 +83,7 @@ void Coverage::allocate() {
     firstPair_ = makeBuffer(nullptr, sizeof(uint32_t) * (triangles + 1));
     found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * triangles);
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
-    commands_ = makeBuffer(nullptr, sizeof(DrawCommand) * ranges);
+    commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
     constexpr GLbitfield kMapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     const size_t totalBytes = sizeof(uint32_t) * std::max<size_t>(parts_.size(), 1);
     totalsBuffer_ = makeBuffer(nullptr, totalBytes, kMapping);

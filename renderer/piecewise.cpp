@@ -41,11 +41,14 @@ void PiecewiseRenderer::record(const SceneView& view) {
         recordPlain(view);
 }
 
-void PiecewiseRenderer::bindMaterial(const Material& material) const {
-    if (!programs_.choose(material).textured) return;
-    const auto texture = static_cast<size_t>(material.texture);
-    glBindTextureUnit(0, scene_.textures[texture].id());
-    glBindSampler(0, scene_.samplers[texture].id());
+GLuint PiecewiseRenderer::bindMaterial(const Material& material) const {
+    const ScenePrograms::Chosen chosen = programs_.choose(material);
+    if (chosen.textured) {
+        const auto texture = static_cast<size_t>(material.texture);
+        glBindTextureUnit(0, scene_.textures[texture].id());
+        glBindSampler(0, scene_.samplers[texture].id());
+    }
+    return chosen.program;
 }
 
 void PiecewiseRenderer::recordPlain(const SceneView&) {
@@ -71,10 +74,12 @@ void PiecewiseRenderer::recordPairs(const SceneView& view) {
         bindStorage(2, pieces_.pieces);
         bindStorage(3, part.chunk->normals);
         bindStorage(4, part.chunk->uvs);
+        bindStorage(5, coverage_->commands());
         bindStorage(6, coverage_->pairs());
         for (size_t r = 0; r < part.ranges.size(); ++r) {
-            bindMaterial(scene_.scene->materials[part.ranges[r].material]);
-            glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(16 * r));
+            const GLuint program = bindMaterial(scene_.scene->materials[part.ranges[r].material]);
+            glProgramUniform1ui(program, 13, static_cast<GLuint>(r));
+            glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kDrawCommandBytes * r));
         }
     }
 }

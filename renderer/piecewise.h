@@ -28,7 +28,7 @@ public:
 private:
     void recordPlain(const SceneView& view);
     void recordPairs(const SceneView& view);
-    void bindMaterial(const Material& material) const;
+    GLuint bindMaterial(const Material& material) const;  // the program that is current then
 
     const GpuScene& scene_;
     const GpuPieces& pieces_;

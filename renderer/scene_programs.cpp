@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/coverage.h"
+
 namespace curvewall {
 namespace {
 
@@ -32,6 +34,7 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
             if (condition) defines.emplace_back(name);
         };
         defineIf(path.pairs, "PAIRS");
+        if (path.pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.owned, "OWNED");
         defineIf(variant.lit, "LIT");
         defineIf(variant.textured, "TEXTURED");

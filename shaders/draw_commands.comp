@@ -1,4 +1,7 @@
-// One indirect draw a material range: the pairs of its triangles.
+// One indirect draw a material range: the pairs of its triangles, in instances of PAIRS_PER_INSTANCE. Instances cost a GPU
+// nothing, and llvmpipe clips them one at a time: in one long run it goes over all vertices for every few that it clips.
+
+#include "draw_command.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -6,13 +9,6 @@ struct Range {
     uint firstTriangle;  // within the part
     uint triangleCount;
 };
-struct DrawCommand {  // as glDrawArraysIndirect reads it
-    uint count;
-    uint instanceCount;
-    uint first;
-    uint baseInstance;
-};
-
 layout(std430, binding = 2) readonly buffer Ranges { Range ranges[]; };
 layout(std430, binding = 3) writeonly buffer Commands { DrawCommand commands[]; };
 layout(std430, binding = 5) readonly buffer FirstPair { uint firstPair[]; };
@@ -25,5 +21,6 @@ void main() {
     if (i >= rangeCount) return;
     uint first = min(firstPair[ranges[i].firstTriangle], capacity);
     uint end = min(firstPair[ranges[i].firstTriangle + ranges[i].triangleCount], capacity);
-    commands[i] = DrawCommand(3u * (end - first), 1u, 3u * first, 0u);
+    uint instances = (end - first + PAIRS_PER_INSTANCE - 1u) / PAIRS_PER_INSTANCE;
+    commands[i] = DrawCommand(3u * PAIRS_PER_INSTANCE, instances, 3u * first, 0u, end);
 }

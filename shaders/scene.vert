@@ -1,6 +1,7 @@
 // A triangle's corner on the screen of one piece: H r, with w = 1 on the facet. PAIRS pulls the corner of a
 // (triangle, piece) pair; without it one piece serves the whole display and corners come as plain vertices.
 
+#include "draw_command.glsl"
 #include "scene_geometry.glsl"
 
 layout(std430, binding = 2) readonly buffer Pieces { vec4 pieces[]; };  // three rows of H to clip space, then planes
@@ -10,7 +11,9 @@ layout(location = 9) uniform float nearFraction;  // depth = nearFraction / w, r
 #ifdef PAIRS
 layout(std430, binding = 3) readonly buffer Normals { uint normals[]; };
 layout(std430, binding = 4) readonly buffer Uvs { vec2 uvs[]; };
+layout(std430, binding = 5) readonly buffer Commands { DrawCommand commands[]; };
 layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };
+layout(location = 13) uniform uint command;
 #else
 layout(location = 0) in vec3 vertexPosition;
 layout(location = 1) in vec4 vertexNormal;
@@ -40,7 +43,10 @@ vec3 unpackNormal(uint bits) {
 
 void main() {
 #ifdef PAIRS
-    uvec2 pair = pairs[uint(gl_VertexID) / 3u];
+    uint index = uint(gl_VertexID) / 3u + uint(gl_InstanceID) * PAIRS_PER_INSTANCE;
+    // What the last instance has too much becomes a point, which is not drawn.
+    bool none = index >= commands[command].endPair;
+    uvec2 pair = none ? uvec2(0u) : pairs[index];
     bool behind = (pair.x & 0x80000000u) != 0u;
     uint vertex = corners[3u * (pair.x & 0x7fffffffu) + uint(gl_VertexID) % 3u];
     uint row = pair.y * uint(3 + CLIP_PLANES);
@@ -71,5 +77,13 @@ void main() {
                        dot(pieces[row + 2u].xyz, ray));
 #if CLIP_PLANES > 0
     for (uint i = 0u; i < uint(CLIP_PLANES); ++i) gl_ClipDistance[i] = dot(pieces[row + 3u + i].xyz, ray);
+#endif
+#ifdef PAIRS
+    if (none) {
+        gl_Position = vec4(0.0, 0.0, 0.5, 1.0);
+#if CLIP_PLANES > 0
+        for (uint i = 0u; i < uint(CLIP_PLANES); ++i) gl_ClipDistance[i] = 1.0;
+#endif
+    }
 #endif
 }
