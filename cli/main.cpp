@@ -9,11 +9,21 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
-#include <iostream>
+#include <string>
 
 namespace {
 
 constexpr int kUsageExit = 2;
+
+// CLI11 would say that a subcommand is required, which is not what went wrong.
+void requireKnownSubcommand(const CLI::App& app, const std::string& word) {
+    std::string names;
+    for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (subcommand->get_name() == word) return;
+        names += (names.empty() ? "" : ", ") + subcommand->get_name();
+    }
+    throw curvewall::UsageError("there is no subcommand \"" + word + "\"; there are " + names);
+}
 
 int runSubcommand(int argc, char** argv) {
     CLI::App app("Renders 3D scenes straight into the image that a curved wall needs.", "curvewall");
@@ -22,6 +32,7 @@ int runSubcommand(int argc, char** argv) {
     curvewall::addRenderCommand(app);
     curvewall::addInspectCommand(app);
     curvewall::addServeCommand(app);
+    if (argc > 1 && argv[1][0] != '-') requireKnownSubcommand(app, argv[1]);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
