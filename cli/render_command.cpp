@@ -53,10 +53,19 @@ void writeStats(const std::string& path, const RenderStats& stats) {
     if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
+std::string summaryOf(const RenderStats& stats) {
+    if (stats.pieces > 0)
+        return fmt::format("{} pieces, error {:.4f} px at most, {:.2f} pairs a triangle", stats.pieces,
+                           stats.geometricError.maxPx, stats.replicationRatio());
+    if (stats.faces > 0)
+        return fmt::format("{} cube faces of {} px, error {:.4f} px at most", stats.faces, stats.faceSizePx,
+                           stats.geometricError.maxPx);
+    return fmt::format("{} rays a pixel", stats.samples);
+}
+
 void report(const Display& display, const RenderStats& stats, const std::string& out) {
-    fmt::print("{}: {}, {} pieces, error {:.4f} px at most, {:.2f} pairs a triangle, {:.1f} ms a frame{}\n",
-               display.name, stats.method, stats.pieces, stats.geometricError.maxPx, stats.replicationRatio(),
-               stats.frameMsMedian, out.empty() ? "" : " -> " + out);
+    fmt::print("{}: {}, {}, {:.1f} ms a frame{}\n", display.name, stats.method, summaryOf(stats), stats.frameMsMedian,
+               out.empty() ? "" : " -> " + out);
 }
 
 void run(const RenderCommand& command) {
