@@ -43,7 +43,9 @@ public:
             fails = passes;
             passes *= 1.2;
         }
-        while (cellsAt(fails) != cellsAt(passes) && !isNextCoarser(cellsAt(fails), cellsAt(passes))) {
+        // Columns and rows may grow at one fineness: then no grid lies between two that differ in both.
+        const auto gap = [&] { return cellsAt(passes) - cellsAt(fails); };
+        while (gap().x + gap().y > 1 && passes - fails > 1e-3 * passes) {
             const double middle = 0.5 * (fails + passes);
             (meets(at(middle)) ? passes : fails) = middle;
         }
@@ -65,10 +67,6 @@ private:
         };
         return {count(profile_.columnsFor(tolerancePx_)), count(profile_.rowsFor(tolerancePx_))};
     }
-    static bool isNextCoarser(glm::ivec2 coarse, glm::ivec2 fine) {
-        return fine.x - coarse.x + fine.y - coarse.y <= 1;
-    }
-
     const Projection& projection_;
     BendProfile profile_;
     double tolerancePx_;

@@ -125,7 +125,7 @@ struct Renderer::Impl {
     RecentlyUsed<ScenePtr, ReferenceRenderer> references{2};
     RecentlyUsed<ScenePtr, GpuScene> scenes{4};
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
-    RecentlyUsed<DrawKey, PiecewiseRenderer> draws{32};
+    RecentlyUsed<DrawKey, PiecewiseRenderer> draws{4};  // each has buffers for every pair of its scene
 
     std::shared_ptr<GpuScene> gpuScene(const ScenePtr& scene) {
         return scenes.get(scene, [&] { return std::make_shared<GpuScene>(uploadScene(scene)); });
@@ -156,7 +156,9 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
         return std::make_shared<PiecewiseRenderer>(
             *scene, prepared->gpu, SceneLook{request.style, request.output}, &prepared->owners);
     });
-    const FrameTarget target(display.sizePx, {request.output, request.linearOutput}, request.samples);
+    // Distances, counts and points are those of the pixel's centre: there is no average of them.
+    const int samples = request.output == OutputKind::color ? request.samples : 1;
+    const FrameTarget target(display.sizePx, {request.output, request.linearOutput}, samples);
     stats.prepareMs = msSince(start);
 
     const auto draw = [&](const Camera& camera) {
