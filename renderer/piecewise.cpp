@@ -38,7 +38,7 @@ void PiecewiseRenderer::record(const SceneView& view) {
     if (coverage_)
         recordPairs(view);
     else
-        recordPlain(view);
+        recordPlain();
 }
 
 GLuint PiecewiseRenderer::bindMaterial(const Material& material) const {
@@ -51,7 +51,7 @@ GLuint PiecewiseRenderer::bindMaterial(const Material& material) const {
     return chosen.program;
 }
 
-void PiecewiseRenderer::recordPlain(const SceneView&) {
+void PiecewiseRenderer::recordPlain() {
     bindStorage(2, pieces_.pieces);
     for (const SceneChunk& chunk : scene_.chunks) {
         glBindVertexArray(chunk.vertexArray.id());

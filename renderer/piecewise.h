@@ -26,7 +26,7 @@ public:
     std::optional<uint64_t> finishFrame();
 
 private:
-    void recordPlain(const SceneView& view);
+    void recordPlain();
     void recordPairs(const SceneView& view);
     GLuint bindMaterial(const Material& material) const;  // the program that is current then
 

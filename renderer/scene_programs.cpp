@@ -1,9 +1,10 @@
 #include "renderer/scene_programs.h"
 
-#include <string>
-#include <vector>
-
 #include "renderer/coverage.h"
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -40,11 +41,12 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");
         // Pairs carry their facing and the hidden ones are never made; a plain draw has to look.
-        defineIf(!path.pairs && (variant.lit || variant.singleSided), "CHECK_FACING");
+        const bool checksFacing = !path.pairs && (variant.lit || variant.singleSided);
+        defineIf(checksFacing, "CHECK_FACING");
         defineIf(!path.pairs && variant.singleSided, "SINGLE_SIDED");
-        programs_.emplace(
-            variant,
-            makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines));
+        GlProgram program =
+            makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
+        programs_.emplace(variant, Entry{std::move(program), checksFacing});
     }
 }
 
@@ -59,7 +61,7 @@ ScenePrograms::Variant ScenePrograms::variantFor(const Material& material) const
 
 ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
     const Variant variant = variantFor(material);
-    const GLuint program = programs_.at(variant).id();
+    const GLuint program = programs_.at(variant).program.id();
     glUseProgram(program);
     glProgramUniform4fv(program, 10, 1, &material.baseColor[0]);
     if (variant.masked) glProgramUniform1f(program, 11, material.alphaCutoff);
@@ -67,12 +69,12 @@ ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
 }
 
 void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise) const {
-    for (const auto& [variant, program] : programs_) {
-        glProgramUniformMatrix3fv(program.id(), 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
-        glProgramUniform3fv(program.id(), 1, 1, &view.originFromEyeM[0]);
-        glProgramUniform1f(program.id(), 9, kNearFraction);
-        if (glGetUniformLocation(program.id(), "frontIsClockwise") >= 0)
-            glProgramUniform1i(program.id(), 12, frontIsClockwise);
+    for (const auto& [variant, entry] : programs_) {
+        const GLuint program = entry.program.id();
+        glProgramUniformMatrix3fv(program, 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
+        glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
+        glProgramUniform1f(program, 9, kNearFraction);
+        if (entry.checksFacing) glProgramUniform1i(program, 12, frontIsClockwise);
     }
 }
 

@@ -44,10 +44,14 @@ private:
         bool lit = false, textured = false, masked = false, singleSided = false;
         auto operator<=>(const Variant&) const = default;
     };
+    struct Entry {
+        GlProgram program;
+        bool checksFacing = false;
+    };
     Variant variantFor(const Material& material) const;
 
     SceneLook look_;
-    std::map<Variant, GlProgram> programs_;
+    std::map<Variant, Entry> programs_;
 };
 
 }  // namespace curvewall
