@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace curvewall {
 namespace {
 
 constexpr int kLattice = 4;  // samples per piece edge, less one
 constexpr int kIterations = 24;
+constexpr int kPatience = 4;         // steps without progress before the fit ends
+constexpr double kProgress = 0.995;  // what the maximum must fall below, of the best so far
 
 // A screen position inside a piece, as a blend of its vertices, with the ray that the display shows there.
 struct Sample {
@@ -99,33 +102,80 @@ private:
     bool keepsQuads_;
 };
 
-// One weighted Gauss-Newton step; returns the movement of every unknown.
-Eigen::VectorXd solveStep(const PieceMesh& mesh, const std::vector<Sample>& samples, const Motion& motion) {
-    const auto size = static_cast<Eigen::Index>(3 * motion.blockCount());
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd target(static_cast<Eigen::Index>(2 * samples.size()));
-    for (size_t row = 0; row < samples.size(); ++row) {
-        const Sample& sample = samples[row];
-        const Piece& piece = mesh.pieces[sample.piece];
-        const Landing landing = land(piece.screenFromRay, sample);
-        const double root = std::sqrt(sample.weight);
-        for (int axis = 0; axis < 2; ++axis) {
-            const auto line = static_cast<int>(2 * row) + axis;
-            target[line] = root * landing.errorPx[axis];
-            for (uint32_t i = 0; i < piece.vertexCount; ++i)
-                for (size_t block : motion.blocksOf(piece.vertices[i]))
+// The normal equations of one weighted Gauss-Newton step.
+class NormalEquations {
+public:
+    explicit NormalEquations(size_t blockCount) : right_(Eigen::VectorXd::Zero(sizeOf(blockCount))) {}
+
+    // Adds the samples of one piece.
+    void addPiece(const PieceMesh& mesh, const Motion& motion, std::span<const Sample> samples) {
+        const Piece& piece = mesh.pieces[samples.front().piece];
+        std::vector<size_t> blocks;
+        for (uint32_t i = 0; i < piece.vertexCount; ++i)
+            for (size_t block : motion.blocksOf(piece.vertices[i]))
+                if (std::ranges::find(blocks, block) == blocks.end()) blocks.push_back(block);
+
+        const Eigen::Index size = sizeOf(blocks.size());
+        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
+        Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+        for (const Sample& sample : samples) {
+            const Landing landing = land(piece.screenFromRay, sample);
+            Eigen::Matrix<double, 2, Eigen::Dynamic> jacobian = Eigen::MatrixXd::Zero(2, size);
+            for (uint32_t i = 0; i < piece.vertexCount; ++i) {
+                for (size_t block : motion.blocksOf(piece.vertices[i])) {
+                    const auto column =
+                        sizeOf(static_cast<size_t>(std::ranges::find(blocks, block) - blocks.begin()));
                     for (int c = 0; c < 3; ++c)
-                        entries.emplace_back(line, static_cast<int>(3 * block) + c,
-                                             root * sample.blend[i] * landing.pxPerM[c][axis]);
+                        for (int axis = 0; axis < 2; ++axis)
+                            jacobian(axis, column + c) += sample.blend[i] * landing.pxPerM[c][axis];
+                }
+            }
+            normal += sample.weight * jacobian.transpose() * jacobian;
+            right +=
+                sample.weight * jacobian.transpose() * Eigen::Vector2d(landing.errorPx.x, landing.errorPx.y);
+        }
+        scatter(blocks, normal, right);
+    }
+
+    // The movement of every unknown.
+    Eigen::VectorXd solve() {
+        Eigen::SparseMatrix<double> normal(right_.size(), right_.size());
+        normal.setFromTriplets(entries_.begin(), entries_.end());
+        // Some motions change nothing on the screen; a trace of damping picks one answer.
+        const double damping = 1e-9 * normal.diagonal().maxCoeff();
+        for (Eigen::Index i = 0; i < right_.size(); ++i) normal.coeffRef(i, i) += damping;
+        return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(right_);
+    }
+
+private:
+    static Eigen::Index sizeOf(size_t blocks) { return static_cast<Eigen::Index>(3 * blocks); }
+
+    void scatter(const std::vector<size_t>& blocks, const Eigen::MatrixXd& normal,
+                 const Eigen::VectorXd& right) {
+        const auto global = [&](Eigen::Index i) {
+            return sizeOf(blocks[static_cast<size_t>(i / 3)]) + i % 3;
+        };
+        for (Eigen::Index i = 0; i < right.size(); ++i) {
+            right_[global(i)] += right[i];
+            for (Eigen::Index j = 0; j < right.size(); ++j)
+                entries_.emplace_back(static_cast<int>(global(i)), static_cast<int>(global(j)), normal(i, j));
         }
     }
-    Eigen::SparseMatrix<double> jacobian(target.size(), size);
-    jacobian.setFromTriplets(entries.begin(), entries.end());
-    Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
-    // Some motions change nothing on the screen; a trace of damping picks one answer.
-    const double damping = 1e-9 * normal.diagonal().maxCoeff();
-    for (Eigen::Index i = 0; i < size; ++i) normal.coeffRef(i, i) += damping;
-    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(jacobian.transpose() * target);
+
+    Eigen::VectorXd right_;
+    std::vector<Eigen::Triplet<double>> entries_;
+};
+
+Eigen::VectorXd solveStep(const PieceMesh& mesh, const std::vector<Sample>& samples, const Motion& motion) {
+    NormalEquations equations(motion.blockCount());
+    // Samples come piece by piece.
+    for (auto begin = samples.begin(); begin != samples.end();) {
+        const auto end =
+            std::find_if(begin, samples.end(), [&](const Sample& s) { return s.piece != begin->piece; });
+        equations.addPiece(mesh, motion, {begin, end});
+        begin = end;
+    }
+    return equations.solve();
 }
 
 double summedDistanceM(const std::vector<PieceVertex>& vertices) {
@@ -134,8 +184,8 @@ double summedDistanceM(const std::vector<PieceVertex>& vertices) {
     return sum;
 }
 
-// Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets stay as far
-// from the eye as the wall, for depth is measured by them.
+// Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets
+// stay as far from the eye as the wall, for depth is measured by them.
 void moveVertices(std::vector<PieceVertex>& vertices, const Motion& motion, const Eigen::VectorXd& step) {
     const double distanceM = summedDistanceM(vertices);
     for (size_t v = 0; v < vertices.size(); ++v)
@@ -161,25 +211,23 @@ double reweight(const PieceMesh& mesh, std::vector<Sample>& samples) {
 
 }  // namespace
 
-BalancedPieces balanceFacets(const Projection& projection, const PieceGrid& grid) {
-    PieceMesh mesh = meshFromGrid(grid.sizePx, grid.vertices, grid.columns, grid.rows);
-    const bool keepsQuads =
-        mesh.pieces.size() == static_cast<size_t>(grid.columns) * static_cast<size_t>(grid.rows);
-    const Motion motion(grid, keepsQuads);
+BalancedPieces balanceFacets(const Projection& projection, PieceGrid grid) {
+    const bool quads = isQuadGrid(grid);
+    const Motion motion(grid, quads);
+    PieceMesh mesh = meshFromGrid(grid, quads);
     std::vector<Sample> samples = samplesOf(projection, mesh);
 
     BalancedPieces best{mesh, std::numeric_limits<double>::infinity()};
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0, idle = 0; i < kIterations && idle < kPatience; ++i) {
         std::vector<Sample> weighted = samples;
         const double worst = reweight(mesh, weighted);
         if (!facesTheEye(mesh) || !std::isfinite(worst)) break;
+        idle = worst < kProgress * best.sampledMaxPx ? 0 : idle + 1;
         if (worst < best.sampledMaxPx) best = {mesh, worst};
         if (worst < 1e-9) break;
         if (i > 0) samples = std::move(weighted);  // the first step is the plain least squares fit
-        std::vector<PieceVertex> moved = mesh.vertices;
-        moveVertices(moved, motion, solveStep(mesh, samples, motion));
-        mesh = meshFromGrid(grid.sizePx, std::move(moved), grid.columns, grid.rows);
-        if (mesh.pieces.size() != best.mesh.pieces.size()) break;
+        moveVertices(grid.vertices, motion, solveStep(mesh, samples, motion));
+        mesh = meshFromGrid(grid, quads);
     }
     return best;
 }

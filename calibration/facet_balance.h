@@ -14,6 +14,6 @@ struct BalancedPieces {
 // surface, Gauss-Newton steps on the true screen error with Lawson's reweighting lead from the least squares
 // fit towards the smallest maximum (C. L. Lawson, 1961). A grid of exact quads stays one: it is moved as m(i,
 // j) = u(i) + v(j), which every parallelogram grid is, so exactness is a constraint and not a tolerance.
-BalancedPieces balanceFacets(const Projection& projection, const PieceGrid& grid);
+BalancedPieces balanceFacets(const Projection& projection, PieceGrid grid);
 
 }  // namespace curvewall

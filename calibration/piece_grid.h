@@ -8,14 +8,6 @@
 
 namespace curvewall {
 
-// Vertices row by row, (columns + 1) x (rows + 1).
-struct PieceGrid {
-    glm::ivec2 sizePx{0};
-    int columns = 0;
-    int rows = 0;
-    std::vector<PieceVertex> vertices;
-};
-
 // How many cells a stretch of the display needs, in each direction on its own. The error of a flat cell grows
 // with the square of its width, so the density is the square root of the error that one pixel of width makes.
 class BendProfile {

@@ -3,12 +3,13 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace curvewall {
 namespace {
 
-constexpr double kExactPx = 1e-9;
+constexpr double kRounding = 1e-12;  // of the largest coordinate
 
 // Lines (n, c) on the screen with n of length one and dot(n, p) + c >= 0 inside the piece and its guard.
 std::vector<glm::dvec3> guardedScreenLines(const PieceMesh& mesh, const Piece& piece) {
@@ -36,12 +37,36 @@ glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const P
 }
 
 bool isExactQuad(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c, const PieceVertex& d) {
-    const glm::dvec3 h = homographyThrough(a, b, c) * d.m;
-    return std::abs(h.z - 1) < kExactPx && glm::length(glm::dvec2(h) - d.s) < kExactPx;
+    const double largestM =
+        std::max({glm::length(a.m), glm::length(b.m), glm::length(c.m), glm::length(d.m)});
+    return glm::length(a.m - b.m + c.m - d.m) <= kRounding * largestM &&
+           a.s - b.s + c.s - d.s == glm::dvec2(0);
 }
 
-PieceMesh meshFromGrid(glm::ivec2 sizePx, std::vector<PieceVertex> vertices, int columns, int rows) {
-    PieceMesh mesh{sizePx, std::move(vertices), {}};
+namespace {
+
+// Vertex indices around the cell of a grid.
+std::array<uint32_t, 4> cellCorners(const PieceGrid& grid, int column, int row) {
+    const auto a = static_cast<uint32_t>(row * (grid.columns + 1) + column);
+    const uint32_t d = a + static_cast<uint32_t>(grid.columns) + 1;
+    return {a, a + 1, d + 1, d};
+}
+
+}  // namespace
+
+bool isQuadGrid(const PieceGrid& grid) {
+    for (int row = 0; row < grid.rows; ++row) {
+        for (int column = 0; column < grid.columns; ++column) {
+            const auto [a, b, c, d] = cellCorners(grid, column, row);
+            if (!isExactQuad(grid.vertices[a], grid.vertices[b], grid.vertices[c], grid.vertices[d]))
+                return false;
+        }
+    }
+    return true;
+}
+
+PieceMesh meshFromGrid(const PieceGrid& grid, bool quads) {
+    PieceMesh mesh{grid.sizePx, grid.vertices, {}};
     const auto addPiece = [&](std::initializer_list<uint32_t> corners) {
         Piece piece;
         for (uint32_t corner : corners) piece.vertices[piece.vertexCount++] = corner;
@@ -49,11 +74,10 @@ PieceMesh meshFromGrid(glm::ivec2 sizePx, std::vector<PieceVertex> vertices, int
         piece.screenFromRay = homographyThrough(vertex(0), vertex(1), vertex(2));
         mesh.pieces.push_back(piece);
     };
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            const auto a = static_cast<uint32_t>(row * (columns + 1) + column);
-            const uint32_t b = a + 1, d = a + static_cast<uint32_t>(columns) + 1, c = d + 1;
-            if (isExactQuad(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d])) {
+    for (int row = 0; row < grid.rows; ++row) {
+        for (int column = 0; column < grid.columns; ++column) {
+            const auto [a, b, c, d] = cellCorners(grid, column, row);
+            if (quads) {
                 addPiece({a, b, c, d});
             } else {
                 addPiece({a, b, c});

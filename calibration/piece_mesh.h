@@ -47,12 +47,23 @@ glm::dvec2 snapToGrid(glm::dvec2 px);
 // H of the facet through three vertices.
 glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c);
 
-// True when four vertices, in order around a cell, lie in one plane and map by one affine map to 1e-9 px.
+// True when four vertices, in order around a cell, are corners of parallelograms in space and on the screen,
+// to rounding: then they lie in one plane and map by one affine map.
 bool isExactQuad(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c, const PieceVertex& d);
 
-// A grid of (columns + 1) x (rows + 1) vertices, row by row, as pieces: exact quads where the cells allow it,
-// otherwise two triangles a cell.
-PieceMesh meshFromGrid(glm::ivec2 sizePx, std::vector<PieceVertex> vertices, int columns, int rows);
+// (columns + 1) x (rows + 1) vertices, row by row from the top left.
+struct PieceGrid {
+    glm::ivec2 sizePx{0};
+    int columns = 0;
+    int rows = 0;
+    std::vector<PieceVertex> vertices;
+};
+
+// True when every cell is an exact quad.
+bool isQuadGrid(const PieceGrid& grid);
+
+// One piece a cell for a grid of exact quads, otherwise two triangles a cell.
+PieceMesh meshFromGrid(const PieceGrid& grid, bool quads);
 
 // Planes through the eye that bound a piece, its guard included: dot(plane, ray) >= 0 inside. One an edge.
 std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece);

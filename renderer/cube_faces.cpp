@@ -67,7 +67,7 @@ PieceMesh cubeFaceMesh(int face, int faceSizePx, double distanceM) {
         for (int column = 0; column < 2; ++column)
             vertices.push_back({distanceM * cubeFaceRay({column, row}, face),
                                 glm::dvec2(column, row) * static_cast<double>(faceSizePx)});
-    return meshFromGrid(glm::ivec2(faceSizePx), std::move(vertices), 1, 1);
+    return meshFromGrid({glm::ivec2(faceSizePx), 1, 1, std::move(vertices)}, true);
 }
 
 int faceSizeFor(const Display& display, const std::vector<glm::vec4>& rays) {

@@ -20,7 +20,7 @@ PieceMesh inscribedSlices(const Projection& projection, glm::ivec2 sizePx, int c
             const glm::dvec2 s = snapToGrid({double(sizePx.x) * i / count, double(sizePx.y) * row});
             vertices.push_back({*projection.unproject(s), s});
         }
-    return meshFromGrid(sizePx, std::move(vertices), count, 1);
+    return meshFromGrid({sizePx, count, 1, std::move(vertices)}, true);
 }
 
 TEST(Certificate, InscribedSlicesErrAsTheirSagittaSays) {

@@ -24,7 +24,7 @@ PieceMesh wobblyTriangles(glm::ivec2 sizePx, int cells, uint64_t seed) {
             vertices.push_back({{s.x, s.y, 100 + 10 * random.uniform(0, 1)}, s});
         }
     }
-    return meshFromGrid(sizePx, std::move(vertices), cells, cells);
+    return meshFromGrid({sizePx, cells, cells, std::move(vertices)}, false);
 }
 
 PieceMesh alone(const PieceMesh& mesh, size_t piece) {
@@ -48,7 +48,7 @@ TEST(Ownership, PixelCentresOnEdgesGoByTheTopLeftRule) {
     std::vector<PieceVertex> vertices;
     for (double y : {0.0, 3.0})
         for (double x : {0.0, 1.5, 2.5, 4.0}) vertices.push_back({{x, y, 5}, {x, y}});
-    const std::vector<int32_t> owners = ownerImage(meshFromGrid({4, 3}, vertices, 3, 1));
+    const std::vector<int32_t> owners = ownerImage(meshFromGrid({{4, 3}, 3, 1, vertices}, true));
     EXPECT_EQ(owners, (std::vector<int32_t>{0, 1, 2, 2, 0, 1, 2, 2, 0, 1, 2, 2}));
 }
 
@@ -64,7 +64,7 @@ TEST(Ownership, PixelsOutsideEveryPieceHaveNone) {
     std::vector<PieceVertex> vertices;
     for (double y : {1.0, 2.0})
         for (double x : {1.0, 3.0}) vertices.push_back({{x, y, 5}, {x, y}});
-    const std::vector<int32_t> owners = ownerImage(meshFromGrid({4, 3}, vertices, 1, 1));
+    const std::vector<int32_t> owners = ownerImage(meshFromGrid({{4, 3}, 1, 1, vertices}, true));
     EXPECT_EQ(owners, (std::vector<int32_t>{-1, -1, -1, -1, -1, 0, 0, -1, -1, -1, -1, -1}));
 }
 

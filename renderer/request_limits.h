@@ -1,0 +1,14 @@
+#pragma once
+// What may be asked for, on the command line and over the network alike.
+
+namespace curvewall {
+
+inline constexpr double kDefaultTolerancePx = 0.25;
+inline constexpr double kLeastTolerancePx = 0.001;
+inline constexpr double kMostTolerancePx = 100;
+inline constexpr int kLeastFacePx = 16;
+inline constexpr int kMostFacePx = 8192;
+inline constexpr int kMostAutomaticFacePx = 4096;  // six of them are 400 MB
+inline constexpr int kMostSamples = 4096;
+
+}  // namespace curvewall
