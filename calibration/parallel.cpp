@@ -9,8 +9,8 @@
 
 namespace curvewall {
 
-void parallelRanges(int count, const std::function<void(int, int)>& work) {
-    const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+void parallelRanges(int count, const std::function<void(int, int)>& work, int threads) {
+    if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const int chunk = std::max(1, count / (threads * 8));
     std::atomic<int> next{0};
     std::exception_ptr failure;

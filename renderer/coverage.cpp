@@ -3,6 +3,7 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace curvewall {
@@ -39,10 +40,6 @@ GlProgram computeProgram(std::string_view file, const std::string& mode) {
 void setView(const GlProgram& program, const SceneView& view) {
     glProgramUniformMatrix3fv(program.id(), 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
     glProgramUniform3fv(program.id(), 1, 1, &view.originFromEyeM[0]);
-}
-
-void bindStorage(GLuint binding, const GlBuffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
 }
 
 void dispatch(const GlProgram& program, uint32_t groups) {
@@ -90,6 +87,7 @@ void Coverage::allocate() {
     totalsBuffer_ = makeBuffer(nullptr, totalBytes, kMapping);
     totals_ = static_cast<const volatile uint32_t*>(
         glMapNamedBufferRange(totalsBuffer_.id(), 0, static_cast<GLsizeiptr>(totalBytes), kMapping));
+    if (!totals_) throw std::runtime_error("OpenGL could not map a buffer");
 }
 
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view) {

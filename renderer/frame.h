@@ -1,8 +1,13 @@
 #pragma once
 // A rendered picture in memory.
 
-#include <glm/vec2.hpp>
+#include "renderer/look.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <limits>
 #include <vector>
 
 namespace curvewall {
@@ -20,5 +25,26 @@ struct Frame {
                        static_cast<size_t>(channels)];
     }
 };
+
+constexpr int channelsOf(OutputKind output) {
+    return output == OutputKind::color || output == OutputKind::position ? 3 : 1;
+}
+
+// The texel of a pixel that shows nothing of the scene.
+inline std::array<float, 3> emptyTexel(OutputKind output, glm::vec3 background) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    switch (output) {
+        case OutputKind::color:
+            return {background.r, background.g, background.b};
+        case OutputKind::depth:
+            return {kInfinity, 0, 0};
+        case OutputKind::coverage:
+            return {0, 0, 0};
+        case OutputKind::position:
+            return {kNaN, kNaN, kNaN};
+    }
+    return {};
+}
 
 }  // namespace curvewall

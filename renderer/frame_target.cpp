@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "renderer/image_file.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
@@ -10,36 +11,12 @@
 namespace curvewall {
 namespace {
 
-GlRenderbuffer makeRenderbuffer(GLenum format, glm::ivec2 sizePx, int samples) {
-    GLuint id = 0;
-    glCreateRenderbuffers(1, &id);
-    GlRenderbuffer buffer(id);
-    glNamedRenderbufferStorageMultisample(id, samples > 1 ? samples : 0, format, sizePx.x, sizePx.y);
-    return buffer;
-}
-
 void requireSamples(int samples) {
     GLint most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     if (samples > most)
         throw UsageError("this OpenGL has at most " + std::to_string(most) + " samples a pixel, not " +
                          std::to_string(samples));
-}
-
-std::array<float, 4> nothing(OutputKind output, glm::vec3 background) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    switch (output) {
-        case OutputKind::color:
-            return {background.r, background.g, background.b, 1};
-        case OutputKind::depth:
-            return {kInfinity, 0, 0, 1};
-        case OutputKind::coverage:
-            return {0, 0, 0, 1};
-        case OutputKind::position:
-            return {kNan, kNan, kNan, 1};
-    }
-    return {};
 }
 
 }  // namespace
@@ -57,10 +34,6 @@ GLenum internalFormatOf(TargetFormat format) {
     return GL_RGBA32F;
 }
 
-int channelsOf(OutputKind output) {
-    return output == OutputKind::color || output == OutputKind::position ? 3 : 1;
-}
-
 FrameTarget::FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples)
     : sizePx_(sizePx), format_(format), texture_(makeTexture2D(internalFormatOf(format), sizePx)) {
     requireSamples(samples);
@@ -75,7 +48,7 @@ FrameTarget::FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples)
     }
     const GlFramebuffer& drawn = samples > 1 ? drawFramebuffer_ : framebuffer_;
     glNamedFramebufferRenderbuffer(drawn.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
-    requireComplete(drawn);
+    requireComplete(drawn, sizePx);
 }
 
 void FrameTarget::begin(glm::vec3 background) const {
@@ -94,19 +67,23 @@ void FrameTarget::end() const {
 
 Frame FrameTarget::read() const {
     Frame frame{sizePx_, channelsOf(format_.output), {}};
-    const size_t count =
-        static_cast<size_t>(sizePx_.x) * static_cast<size_t>(sizePx_.y) * static_cast<size_t>(frame.channels);
-    frame.texels.resize(count);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    const size_t rowTexels = static_cast<size_t>(sizePx_.x) * static_cast<size_t>(frame.channels);
+    frame.texels.resize(rowTexels * static_cast<size_t>(sizePx_.y));
+    const bool isSrgb = internalFormatOf(format_) == GL_SRGB8_ALPHA8;
     const GLenum layout = frame.channels == 3 ? GL_RGB : GL_RED;
-    if (internalFormatOf(format_) == GL_SRGB8_ALPHA8) {
-        std::vector<uint8_t> bytes(count);
-        glGetTextureImage(texture_.id(), 0, layout, GL_UNSIGNED_BYTE, static_cast<GLsizei>(count),
-                          bytes.data());
-        for (size_t i = 0; i < count; ++i) frame.texels[i] = linearFromSrgbByte(bytes[i]);
-    } else {
-        glGetTextureImage(texture_.id(), 0, layout, GL_FLOAT, static_cast<GLsizei>(count * sizeof(float)),
-                          frame.texels.data());
+    std::vector<uint8_t> bytes(isSrgb ? rowTexels : 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    // Row by row: the size of a large frame in bytes does not fit the 32 bits of OpenGL's argument.
+    for (int y = 0; y < sizePx_.y; ++y) {
+        float* row = &frame.texels[static_cast<size_t>(y) * rowTexels];
+        if (isSrgb) {
+            glGetTextureSubImage(texture_.id(), 0, 0, y, 0, sizePx_.x, 1, 1, layout, GL_UNSIGNED_BYTE,
+                                 static_cast<GLsizei>(rowTexels), bytes.data());
+            std::ranges::transform(bytes, row, linearFromSrgbByte);
+        } else {
+            glGetTextureSubImage(texture_.id(), 0, 0, y, 0, sizePx_.x, 1, 1, layout, GL_FLOAT,
+                                 static_cast<GLsizei>(rowTexels * sizeof(float)), row);
+        }
     }
     return frame;
 }
@@ -126,7 +103,9 @@ void clearTarget(GLuint framebuffer, OutputKind output, glm::vec3 background) {
     glEnable(GL_FRAMEBUFFER_SRGB);
     glDepthMask(GL_TRUE);
     const float far = 0;
-    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, nothing(output, background).data());
+    const std::array<float, 3> empty = emptyTexel(output, background);
+    const std::array<float, 4> texel{empty[0], empty[1], empty[2], 1};
+    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, texel.data());
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
 }
 

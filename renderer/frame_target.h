@@ -18,7 +18,6 @@ struct TargetFormat {
 };
 
 GLenum internalFormatOf(TargetFormat format);
-int channelsOf(OutputKind output);
 
 // Row 0 of the framebuffer is the picture's top row. Colour is blended, resolved and cleared in linear light.
 class FrameTarget {

@@ -13,14 +13,6 @@ GlTexture makeCubeMap(GLenum format, int sizePx) {
     return texture;
 }
 
-GlRenderbuffer makeDepth(int sizePx) {
-    GLuint id = 0;
-    glCreateRenderbuffers(1, &id);
-    GlRenderbuffer depth(id);
-    glNamedRenderbufferStorage(id, GL_DEPTH_COMPONENT32F, sizePx, sizePx);
-    return depth;
-}
-
 // Light may be blended between texels; distances, counts and points may not.
 GlSampler makeFaceSampler(OutputKind output) {
     GLuint id = 0;
@@ -43,7 +35,7 @@ ImageBasedRenderer::ImageBasedRenderer(const GpuScene& scene, const std::vector<
       rays_(makeTexture2D(GL_RGBA32F, sizePx)),
       cube_(makeCubeMap(internalFormatOf(format), faceSizePx)),
       sampler_(makeFaceSampler(look.output)),
-      depth_(makeDepth(faceSizePx)),
+      depth_(makeRenderbuffer(GL_DEPTH_COMPONENT32F, glm::ivec2(faceSizePx))),
       resample_(
           makeProgram({{GL_VERTEX_SHADER, "whole_screen.vert"}, {GL_FRAGMENT_SHADER, "resample.frag"}})),
       emptyVertexArray_(makeVertexArray()) {
@@ -58,7 +50,7 @@ ImageBasedRenderer::ImageBasedRenderer(const GpuScene& scene, const std::vector<
         glNamedFramebufferTextureLayer(face.framebuffer.id(), GL_COLOR_ATTACHMENT0, cube_.id(), 0, i);
         glNamedFramebufferRenderbuffer(face.framebuffer.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                                        depth_.id());
-        requireComplete(face.framebuffer);
+        requireComplete(face.framebuffer, glm::ivec2(faceSizePx));
     }
 }
 

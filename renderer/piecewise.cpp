@@ -14,10 +14,6 @@ GeometryPath pathThrough(const GpuPieces& pieces, OutputKind output) {
     return {.pairs = pairs, .clipPlanes = pieces.clipPlanes, .owned = pairs && needsSingleCover(output)};
 }
 
-void bindStorage(GLuint binding, const GlBuffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
-}
-
 }  // namespace
 
 PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, SceneLook look,

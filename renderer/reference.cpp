@@ -1,6 +1,7 @@
 #include "renderer/reference.h"
 
 #include "calibration/errors.h"
+#include "calibration/parallel.h"
 #include "renderer/ray_scene.h"
 #include "renderer/sample_pattern.h"
 #include "renderer/shading.h"
@@ -9,14 +10,8 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <functional>
-#include <limits>
-#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -172,32 +167,6 @@ int countCrossings(const Scene& scene, const View& view, const std::vector<RayHi
     return crossings;
 }
 
-// Calls `row` for every row from all threads; the first exception ends the work and reaches the caller.
-void forEachRow(int rows, int threads, const std::function<void(int)>& row) {
-    std::atomic<int> next{0};
-    std::exception_ptr failure;
-    std::mutex mutex;  // guards failure
-    const auto work = [&] {
-        try {
-            for (int y = next++; y < rows; y = next++) row(y);
-        } catch (...) {
-            next = rows;
-            const std::scoped_lock lock(mutex);
-            if (!failure) failure = std::current_exception();
-        }
-    };
-    {
-        std::vector<std::jthread> helpers;
-        for (int i = 1; i < std::min(threads, rows); ++i) helpers.emplace_back(work);
-        work();
-    }
-    if (failure) std::rethrow_exception(failure);
-}
-
-int channelCount(OutputKind output) {
-    return output == OutputKind::color || output == OutputKind::position ? 3 : 1;
-}
-
 }  // namespace
 
 struct ReferenceRenderer::Impl {
@@ -251,45 +220,41 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
                     eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
                     isColor ? 1 / std::sqrt(options.samples) : 1.0};
 
-    Frame frame{display.sizePx, channelCount(options.output), {}};
+    Frame frame{display.sizePx, channelsOf(options.output), {}};
     const auto width = static_cast<size_t>(frame.sizePx.x), channels = static_cast<size_t>(frame.channels);
     frame.texels.resize(width * static_cast<size_t>(frame.sizePx.y) * channels);
 
     const auto renderPixel = [&](glm::dvec2 corner, size_t index) {
-        float* texel = &frame.texels[index * channels];
+        const auto put = [&](const auto& values) {
+            std::copy_n(&values[0], channels, &frame.texels[index * channels]);
+        };
         const glm::dvec2 centre = corner + 0.5;
-        constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
         switch (options.output) {
             case OutputKind::color: {
                 glm::dvec3 sum(0);
                 for (const glm::dvec2 offset : samplePattern(options.samples, index))
                     sum += glm::dvec3(impl_->color(view, corner + offset, options.style, wall.background));
-                const glm::vec3 mean(sum / static_cast<double>(options.samples));
-                std::copy_n(&mean[0], 3, texel);
-                return;
-            }
-            case OutputKind::depth: {
-                const std::optional<glm::dvec3> point = impl_->position(view, centre);
-                *texel = point ? static_cast<float>(glm::length(*point)) : kInfinity;
-                return;
+                return put(glm::vec3(sum / static_cast<double>(options.samples)));
             }
             case OutputKind::coverage:
-                *texel = static_cast<float>(impl_->coverage(view, centre));
-                return;
+                return put(glm::vec3(static_cast<float>(impl_->coverage(view, centre))));
+            case OutputKind::depth:
             case OutputKind::position: {
                 const std::optional<glm::dvec3> point = impl_->position(view, centre);
-                const glm::vec3 shown = point ? glm::vec3(*point) : glm::vec3(kNaN);
-                std::copy_n(&shown[0], 3, texel);
-                return;
+                if (!point) return put(emptyTexel(options.output, wall.background));
+                const bool isDepth = options.output == OutputKind::depth;
+                return put(isDepth ? glm::vec3(static_cast<float>(glm::length(*point))) : glm::vec3(*point));
             }
         }
     };
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    forEachRow(frame.sizePx.y, options.threads > 0 ? options.threads : cores, [&](int y) {
-        for (int x = 0; x < frame.sizePx.x; ++x)
-            renderPixel({x, y}, static_cast<size_t>(y) * width + static_cast<size_t>(x));
-    });
+    parallelRanges(
+        frame.sizePx.y,
+        [&](int begin, int end) {
+            for (int y = begin; y < end; ++y)
+                for (int x = 0; x < frame.sizePx.x; ++x)
+                    renderPixel({x, y}, static_cast<size_t>(y) * width + static_cast<size_t>(x));
+        },
+        options.threads);
     return frame;
 }
 

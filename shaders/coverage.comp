@@ -81,8 +81,9 @@ void main() {
     uint count = 0u;
     if (index < triangleCount) {
         vec3 a = cornerRay(triangle, 0u), b = cornerRay(triangle, 1u), c = cornerRay(triangle, 2u);
-        // Facing is a property of the triangle and the eye, not of any piece's screen.
-        bool behind = dot(a, cross(b, c)) > 0.0;
+        // Facing is a property of the triangle and the eye, not of any piece's screen. This is det(a, b, c) without
+        // its cancellation, which gives a small triangle far away either sign.
+        bool behind = dot(a, cross(b - a, c - a)) > 0.0;
         uvec3 kept = uvec3(0u);
         if (!behind || (singleSided[triangle / 32u] >> (triangle % 32u) & 1u) == 0u)
             count = walk(a, b, c, triangle, 0u, kept);

@@ -10,8 +10,12 @@ GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags) {
     GLuint id = 0;
     glCreateBuffers(1, &id);
     GlBuffer buffer(id);
+    while (glGetError() != GL_NO_ERROR) {
+    }
     glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max<size_t>(size, 4)), size == 0 ? nullptr : bytes,
                          flags);
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        throw std::runtime_error("OpenGL has no memory for a buffer of " + std::to_string(size) + " bytes");
     return buffer;
 }
 
@@ -20,10 +24,19 @@ GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels) {
     glCreateTextures(GL_TEXTURE_2D, 1, &id);
     GlTexture texture(id);
     glTextureStorage2D(id, levels, internalFormat, sizePx.x, sizePx.y);
-    // Where a sampler object does not say otherwise. Integer textures are incomplete under the default, which is linear.
+    // Where a sampler object does not say otherwise. Integer textures are incomplete under the default, which
+    // is linear.
     glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
+}
+
+GlRenderbuffer makeRenderbuffer(GLenum internalFormat, glm::ivec2 sizePx, int samples) {
+    GLuint id = 0;
+    glCreateRenderbuffers(1, &id);
+    GlRenderbuffer buffer(id);
+    glNamedRenderbufferStorageMultisample(id, samples > 1 ? samples : 0, internalFormat, sizePx.x, sizePx.y);
+    return buffer;
 }
 
 GlVertexArray makeVertexArray() {
@@ -38,11 +51,14 @@ GlFramebuffer makeFramebuffer() {
     return GlFramebuffer(id);
 }
 
-void requireComplete(const GlFramebuffer& framebuffer) {
-    const GLenum status = glCheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("OpenGL cannot render to this framebuffer (status " +
-                                 std::to_string(status) + ")");
+void bindStorage(GLuint binding, const GlBuffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
+}
+
+void requireComplete(const GlFramebuffer& framebuffer, glm::ivec2 sizePx) {
+    if (glCheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("OpenGL cannot render to a picture of " + std::to_string(sizePx.x) + " x " +
+                                 std::to_string(sizePx.y) + " px; it may be too large for its memory");
 }
 
 }  // namespace curvewall

@@ -10,7 +10,7 @@
 namespace curvewall {
 
 // Immutable storage; `bytes` may be empty of data (nullptr) to reserve `size` bytes. A buffer of no bytes
-// gets four, since OpenGL has no empty storage.
+// gets four, since OpenGL has no empty storage. Throws std::runtime_error when there is no memory for it.
 GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags = 0);
 
 template <class T>
@@ -19,10 +19,12 @@ GlBuffer makeBuffer(std::span<const T> values) {
 }
 
 GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels = 1);
+GlRenderbuffer makeRenderbuffer(GLenum internalFormat, glm::ivec2 sizePx, int samples = 1);
 GlVertexArray makeVertexArray();
 GlFramebuffer makeFramebuffer();
+void bindStorage(GLuint binding, const GlBuffer& buffer);
 
-// Throws std::runtime_error when the driver cannot render to it.
-void requireComplete(const GlFramebuffer& framebuffer);
+// Throws std::runtime_error when the driver cannot render to it, as when there is no memory for its pictures.
+void requireComplete(const GlFramebuffer& framebuffer, glm::ivec2 sizePx);
 
 }  // namespace curvewall

@@ -20,7 +20,8 @@ PieceMesh inscribedSlices(const Projection& projection, glm::ivec2 sizePx, int c
             const glm::dvec2 s = snapToGrid({double(sizePx.x) * i / count, double(sizePx.y) * row});
             vertices.push_back({*projection.unproject(s), s});
         }
-    return meshFromGrid({sizePx, count, 1, std::move(vertices)}, true);
+    const PieceGrid grid{sizePx, count, 1, std::move(vertices)};
+    return meshFromGrid(grid, isQuadGrid(grid));
 }
 
 TEST(Certificate, InscribedSlicesErrAsTheirSagittaSays) {
