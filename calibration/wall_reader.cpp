@@ -5,13 +5,13 @@
 #include "calibration/json_file.h"
 #include "calibration/planar.h"
 
-#include <numbers>
+#include <glm/trigonometric.hpp>
+
 #include <set>
 
 namespace curvewall {
 namespace {
 
-constexpr double kRadFromDeg = std::numbers::pi / 180;
 constexpr double kMostM = 1e7;  // no wall is larger than the earth
 constexpr Range kAnywhereM{-kMostM, kMostM};
 constexpr Range kLengthM{0, kMostM, true};
@@ -31,7 +31,7 @@ struct Pose {
 
 Pose readPose(JsonFields& fields) {
     const auto angleRad = [&](const char* key) {
-        return fields.number(key, kAngleDeg).value_or(0) * kRadFromDeg;
+        return glm::radians(fields.number(key, kAngleDeg).value_or(0));
     };
     return {vector3(fields, "center", kAnywhereM).value_or(glm::dvec3(0)),
             {angleRad("yaw_deg"), angleRad("pitch_deg"), angleRad("roll_deg")}};
@@ -52,7 +52,7 @@ ProjectionPtr readCylinder(JsonFields& fields, glm::dvec3 eyeM, glm::ivec2 sizeP
     const auto number = [&](const char* key, Range range) {
         return fields.required(key, fields.number(key, range));
     };
-    const CylinderWall cylinder{number("radius", kLengthM), number("arc_deg", {0, 360, true}) * kRadFromDeg,
+    const CylinderWall cylinder{number("radius", kLengthM), glm::radians(number("arc_deg", {0, 360, true})),
                                 number("height", kLengthM), pose.centerM, pose.orientation};
     return std::make_shared<CylinderProjection>(cylinder, eyeM, sizePx);
 }
@@ -67,8 +67,10 @@ ProjectionPtr readProjection(JsonFields& fields, const std::string& type, glm::d
 
 std::string readName(JsonFields& fields, const char* key) {
     std::string name = fields.required(key, fields.text(key));
-    if (name.empty())
-        throw FieldError(FieldError::Kind::value, fields.nameOf(key), "a name", "an empty string");
+    // Names become parts of file names.
+    if (name.empty() || name.find('/') != std::string::npos)
+        throw FieldError(FieldError::Kind::value, fields.nameOf(key), "a name without slashes",
+                         "\"" + name + "\"");
     return name;
 }
 

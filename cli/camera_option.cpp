@@ -2,9 +2,10 @@
 
 #include "calibration/errors.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace curvewall {
@@ -34,9 +35,8 @@ Camera cameraFromText(const std::string& text) {
         throw UsageError("--camera: expected x,y,z[,yaw,pitch,roll] in metres and degrees, found \"" + text +
                          "\"");
     numbers.resize(6, 0);
-    constexpr double kRadFromDeg = std::numbers::pi / 180;
     return {{numbers[0], numbers[1], numbers[2]},
-            {numbers[3] * kRadFromDeg, numbers[4] * kRadFromDeg, numbers[5] * kRadFromDeg}};
+            {glm::radians(numbers[3]), glm::radians(numbers[4]), glm::radians(numbers[5])}};
 }
 
 }  // namespace curvewall

@@ -6,6 +6,7 @@
 #include "calibration/wall_reader.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"
+#include "cli/option_checks.h"
 #include "renderer/image_file.h"
 #include "renderer/render.h"
 
@@ -97,6 +98,8 @@ void run(const InspectCommand& command) {
         const auto path = [&](const std::string& option) {
             return pathForDisplay(option, display->name, displays.size() > 1);
         };
+        for (const std::string& option : {command.errorMap, command.rays, command.pieces})
+            requireFolderOf(path(option));
         const FittedPieces fitted = fitPieces(*display->projection, display->sizePx, command.tolerancePx);
         if (!command.errorMap.empty()) writeFrame(path(command.errorMap), errorFrame(*display, fitted));
         if (!command.rays.empty()) writeFrame(path(command.rays), rayFrame(*display), OutputKind::position);
@@ -119,7 +122,7 @@ void addInspectCommand(CLI::App& app) {
     inspect->add_option("WALL", command->wall, "Wall file")->required();
     inspect->add_option("--display", command->display, "Display of the wall; all of them without it");
     inspect->add_option("--tolerance", command->tolerancePx, "Largest geometric error, pixels")
-        ->check(CLI::Range(0.001, 100.0))
+        ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
     inspect->add_flag("--json", command->asJson, "Report as JSON");
     inspect

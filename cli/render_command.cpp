@@ -5,6 +5,7 @@
 #include "cli/camera_option.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"
+#include "cli/option_checks.h"
 #include "renderer/image_file.h"
 #include "renderer/names.h"
 #include "renderer/render.h"
@@ -64,14 +65,17 @@ std::string summaryOf(const RenderStats& stats) {
 }
 
 void report(const Display& display, const RenderStats& stats, const std::string& out) {
-    fmt::print("{}: {}, {}, {:.1f} ms a frame{}\n", display.name, stats.method, summaryOf(stats), stats.frameMsMedian,
-               out.empty() ? "" : " -> " + out);
+    fmt::print("{}: {}, {}, {:.1f} ms a frame{}\n", display.name, stats.method, summaryOf(stats),
+               stats.frameMsMedian, out.empty() ? "" : " -> " + out);
 }
 
 void run(const RenderCommand& command) {
     RenderRequest request = requestOf(command);
     request.wall = std::make_shared<const Wall>(readWall(command.wall));
     const std::vector<const Display*> displays = chosenDisplays(*request.wall, command.display);
+    for (const Display* display : displays)
+        for (const std::string& path : {command.out, command.stats})
+            requireFolderOf(pathForDisplay(path, display->name, displays.size() > 1));
     request.scene = std::make_shared<const Scene>(loadScene(command.scene));
     for (const std::string& note : request.scene->notes) spdlog::warn("{}: {}", command.scene, note);
     if (command.camera.empty()) request.camera = request.scene->defaultCamera;
@@ -110,15 +114,15 @@ void addRenderCommand(CLI::App& app) {
         ->check(CLI::IsMember({"compute"}))
         ->capture_default_str();
     render->add_option("--tolerance", command->tolerancePx, "Largest geometric error of piecewise, pixels")
-        ->check(CLI::Range(0.001, 100.0))
+        ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
     render->add_option("--samples", command->samples, "Rays a pixel (reference) or MSAA samples (piecewise)")
-        ->check(CLI::Range(1, 4096))
+        ->check(CLI::Range(1, kMostSamples))
         ->capture_default_str();
     render
         ->add_option("--face-size", command->faceSizePx,
                      "Cube face size of image-based, pixels; 0: from the display's densest place")
-        ->check(CLI::Range(0, 8192))
+        ->check(CLI::Validator(checkFaceSize, ""))
         ->capture_default_str();
     render->add_option("--style", command->style, styleNames())
         ->check(oneOf(styleFromName, styleNames()))

@@ -57,16 +57,17 @@ ScenePart::ScenePart(const SceneChunk& source, uint32_t first, uint32_t count)
     rangeBuffer = makeBuffer(std::span<const glm::uvec2>(spans));
 }
 
-Coverage::Coverage(const GpuScene& scene)
+Coverage::Coverage(const GpuScene& scene, uint32_t mostPairs)
     : count_(computeProgram("coverage.comp", "COUNT")),
       scan_(computeProgram("scan.comp", "SCAN")),
       emit_(computeProgram("coverage.comp", "EMIT")),
-      commandsProgram_(computeProgram("draw_commands.comp", "COMMANDS")) {
+      commandsProgram_(computeProgram("draw_commands.comp", "COMMANDS")),
+      mostPairs_(std::min(mostPairs, largestCapacity())) {
     for (const SceneChunk& chunk : scene.chunks) {
         parts_.emplace_back(chunk, 0, chunk.triangleCount);
         capacity_ = std::max(capacity_, 4 * chunk.triangleCount);
     }
-    capacity_ = std::min(std::max(capacity_, 1u << 16), largestCapacity());
+    capacity_ = std::min(std::max(capacity_, 1u << 16), mostPairs_);
     allocate();
 }
 
@@ -135,12 +136,11 @@ Coverage::Outcome Coverage::finishFrame() {
     outcome.overflowed = needed > capacity_;
     if (!outcome.overflowed) return outcome;
 
-    const uint32_t largest = largestCapacity();
-    if (needed > largest) {
+    if (needed > mostPairs_) {
         std::vector<ScenePart> parts;
         for (size_t i = 0; i < parts_.size(); ++i) {
             ScenePart& part = parts_[i];
-            if (totalOf(i) <= largest || part.triangleCount == 1) {
+            if (totalOf(i) <= mostPairs_ || part.triangleCount == 1) {
                 parts.push_back(std::move(part));
             } else {
                 const uint32_t half = part.triangleCount / 2;
@@ -150,7 +150,7 @@ Coverage::Outcome Coverage::finishFrame() {
         }
         parts_ = std::move(parts);
     }
-    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, largest));
+    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, mostPairs_));
     allocate();
     return outcome;
 }

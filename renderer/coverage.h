@@ -29,7 +29,8 @@ struct ScenePart {
 // The compute engine: three passes a part, no read-back within a frame. Buffers grow between frames only.
 class Coverage {
 public:
-    explicit Coverage(const GpuScene& scene);
+    // `mostPairs` limits the pairs of a part below what the driver allows.
+    explicit Coverage(const GpuScene& scene, uint32_t mostPairs = ~0u);
 
     const std::vector<ScenePart>& parts() const { return parts_; }
 
@@ -52,6 +53,7 @@ private:
 
     GlProgram count_, scan_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
+    uint32_t mostPairs_;
     uint32_t capacity_ = 0;  // pairs
     GlBuffer groupPairs_, firstPair_, found_, pairs_, commands_, totalsBuffer_;
     const volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives

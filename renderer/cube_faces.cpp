@@ -2,6 +2,7 @@
 
 #include "calibration/ownership.h"
 #include "calibration/parallel.h"
+#include "renderer/request_limits.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -84,8 +85,8 @@ int faceSizeFor(const Display& display, const std::vector<glm::vec4>& rays) {
         if (i + width < rays.size()) step(rays[i], rays[i + width]);
     }
     // Rays are single precision, so a step is known to about a thousandth.
-    const double sizePx = 0.999 / std::max(smallestStep, 0.5 / kLargestFacePx);
-    return std::clamp(static_cast<int>(std::ceil(sizePx / 16)) * 16, 16, kLargestFacePx);
+    const double sizePx = 0.999 / std::max(smallestStep, 0.5 / kMostAutomaticFacePx);
+    return std::clamp(static_cast<int>(std::ceil(sizePx / 16)) * 16, kLeastFacePx, kMostAutomaticFacePx);
 }
 
 std::array<bool, 6> facesSeen(const std::vector<glm::vec4>& rays, int faceSizePx) {

@@ -22,8 +22,7 @@ glm::dvec3 cubeFaceRay(glm::dvec2 position, int face);
 PieceMesh cubeFaceMesh(int face, int faceSizePx, double distanceM);
 
 // One texel of the face for one pixel where the display is densest, rounded up to a multiple of 16 and kept
-// within [16, kLargestFacePx].
-inline constexpr int kLargestFacePx = 8192;
+// within kLeastFacePx and kMostAutomaticFacePx of request_limits.h.
 int faceSizeFor(const Display& display, const std::vector<glm::vec4>& rays);
 
 // Faces whose texels are read when the rays are filtered linearly.

@@ -16,15 +16,14 @@ GeometryPath pathThrough(const GpuPieces& pieces, OutputKind output) {
 
 }  // namespace
 
-PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, SceneLook look,
-                                     const GlTexture* owners)
+PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
+                                     SceneLook look, const GlTexture* owners)
     : scene_(scene),
       pieces_(pieces),
+      coverage_(pieces.pieceCount > 1 ? coverage : nullptr),
       owners_(owners),
       programs_(*scene.scene, look, pathThrough(pieces, look.output)),
-      emptyVertexArray_(makeVertexArray()) {
-    if (pieces.pieceCount > 1) coverage_.emplace(scene);
-}
+      emptyVertexArray_(makeVertexArray()) {}
 
 void PiecewiseRenderer::record(const SceneView& view) {
     programs_.setFrame(view, pieces_.frontIsClockwise);

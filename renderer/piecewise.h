@@ -13,9 +13,10 @@ namespace curvewall {
 // outlive it.
 class PiecewiseRenderer {
 public:
-    // `owners` is the texture of uploadOwners and is needed for OutputKind::coverage and position, where each
-    // pixel must be its owner's; elsewhere it may be null.
-    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, SceneLook look,
+    // `coverage` finds the pairs where there are several pieces; it serves all renderers of its scene, one
+    // frame at a time. With one piece it may be null. `owners` is the texture of uploadOwners and is needed
+    // for OutputKind::coverage and position, where each pixel must be its owner's; elsewhere it may be null.
+    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage, SceneLook look,
                       const GlTexture* owners);
 
     // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
@@ -32,9 +33,9 @@ private:
 
     const GpuScene& scene_;
     const GpuPieces& pieces_;
+    Coverage* coverage_;  // null: one plain draw
     const GlTexture* owners_;
     ScenePrograms programs_;
-    std::optional<Coverage> coverage_;  // only where there are several pieces
     GlVertexArray emptyVertexArray_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/piece_fit.h"
+#include "calibration/stopwatch.h"
 #include "renderer/cube_faces.h"
 #include "renderer/frame_target.h"
 #include "renderer/gl/egl_context.h"
@@ -13,20 +14,14 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <deque>
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 namespace curvewall {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 double peakMemoryMib() {
     rusage usage{};
@@ -70,32 +65,42 @@ private:
 
 struct PiecesKey {
     WallPtr wall;
-    const Display* display;
+    const Display* display;  // of that wall
     double tolerancePx;
     bool operator==(const PiecesKey&) const = default;
 };
 
 struct PreparedPieces {
-    FittedPieces fitted;
+    Certificate certificate;
     GpuPieces gpu;
     GlTexture owners;
 };
 
 struct DrawKey {
-    std::shared_ptr<GpuScene> scene;
     std::shared_ptr<PreparedPieces> pieces;
     Style style;
     OutputKind output;
     bool operator==(const DrawKey&) const = default;
 };
 
+// A scene on the GPU with all that is made for it, so that it goes as one.
+struct PreparedScene {
+    explicit PreparedScene(const ScenePtr& scene) : gpu(uploadScene(scene)), coverage(gpu) {}
+
+    GpuScene gpu;
+    Coverage coverage;
+    RecentlyUsed<DrawKey, PiecewiseRenderer> draws{16};
+};
+
 // Waits until the GPU has done everything recorded so far.
 void waitForGpu() {
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     constexpr GLuint64 kOneSecondNs = 1'000'000'000;
-    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kOneSecondNs) == GL_TIMEOUT_EXPIRED) {
-    }
+    GLenum status = GL_TIMEOUT_EXPIRED;
+    while (status == GL_TIMEOUT_EXPIRED)
+        status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kOneSecondNs);
     glDeleteSync(fence);
+    if (status == GL_WAIT_FAILED) throw std::runtime_error("OpenGL failed in the middle of a frame");
 }
 
 // Draws all frames and measures them. `draw` finishes its frame; `readFirst` is called after frame 0, outside
@@ -106,9 +111,9 @@ void measureFrames(const RenderRequest& request, const std::function<void(const 
         draw(cameraOfFrame(request, 0));  // a driver compiles its last parts at the first draw
     std::vector<double> frameMs;
     for (int frame = 0; frame < request.frames; ++frame) {
-        const auto start = Clock::now();
+        const Stopwatch drawing;
         draw(cameraOfFrame(request, frame));
-        frameMs.push_back(msSince(start));
+        frameMs.push_back(drawing.ms());
         if (frame == 0) readFirst();
     }
     std::ranges::sort(frameMs);
@@ -121,23 +126,22 @@ void measureFrames(const RenderRequest& request, const std::function<void(const 
 
 // The GL objects are declared after the context, so that they go first.
 struct Renderer::Impl {
-    std::optional<EglContext> context;
-    RecentlyUsed<ScenePtr, ReferenceRenderer> references{2};
-    RecentlyUsed<ScenePtr, GpuScene> scenes{4};
-    RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
-    RecentlyUsed<DrawKey, PiecewiseRenderer> draws{4};  // each has buffers for every pair of its scene
+    explicit Impl(size_t mostScenes) : references(mostScenes), scenes(mostScenes) {}
 
-    std::shared_ptr<GpuScene> gpuScene(const ScenePtr& scene) {
-        return scenes.get(scene, [&] { return std::make_shared<GpuScene>(uploadScene(scene)); });
+    std::optional<EglContext> context;
+    RecentlyUsed<ScenePtr, ReferenceRenderer> references;
+    RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
+    RecentlyUsed<ScenePtr, PreparedScene> scenes;
+
+    std::shared_ptr<PreparedScene> preparedScene(const ScenePtr& scene) {
+        return scenes.get(scene, [&] { return std::make_shared<PreparedScene>(scene); });
     }
 
     std::shared_ptr<PreparedPieces> preparedPieces(const RenderRequest& request, const Display& display) {
         return pieces.get({request.wall, &display, request.tolerancePx}, [&] {
-            auto prepared = std::make_shared<PreparedPieces>();
-            prepared->fitted = fitPieces(*display.projection, display.sizePx, request.tolerancePx);
-            prepared->gpu = uploadPieces(prepared->fitted.mesh);
-            prepared->owners = uploadOwners(prepared->fitted.owners, display.sizePx);
-            return prepared;
+            const FittedPieces fitted = fitPieces(*display.projection, display.sizePx, request.tolerancePx);
+            return std::make_shared<PreparedPieces>(PreparedPieces{
+                fitted.certificate, uploadPieces(fitted.mesh), uploadOwners(fitted.owners, display.sizePx)});
         });
     }
 
@@ -149,17 +153,18 @@ struct Renderer::Impl {
 RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Display& display) {
     RenderResult result;
     RenderStats& stats = result.stats;
-    const auto start = Clock::now();
-    const auto scene = gpuScene(request.scene);
+    const Stopwatch preparing;
+    const auto scene = preparedScene(request.scene);
     const auto prepared = preparedPieces(request, display);
-    const auto renderer = draws.get({scene, prepared, request.style, request.output}, [&] {
-        return std::make_shared<PiecewiseRenderer>(
-            *scene, prepared->gpu, SceneLook{request.style, request.output}, &prepared->owners);
+    const auto renderer = scene->draws.get({prepared, request.style, request.output}, [&] {
+        const SceneLook look{request.style, request.output};
+        return std::make_shared<PiecewiseRenderer>(scene->gpu, prepared->gpu, &scene->coverage, look,
+                                                   &prepared->owners);
     });
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
     const FrameTarget target(display.sizePx, {request.output, request.linearOutput}, samples);
-    stats.prepareMs = msSince(start);
+    stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
@@ -183,7 +188,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     stats.method = "piecewise";
     stats.engine = prepared->gpu.pieceCount > 1 ? "compute" : "plain";
     stats.tolerancePx = request.tolerancePx;
-    stats.geometricError = errorOf(prepared->fitted.certificate);
+    stats.geometricError = errorOf(prepared->certificate);
     stats.pieces = prepared->gpu.pieceCount;
     return result;
 }
@@ -193,17 +198,17 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
         throw UsageError("image-based takes one sample a pixel; a larger face size is its way to more");
     RenderResult result;
     RenderStats& stats = result.stats;
-    const auto start = Clock::now();
-    const auto scene = gpuScene(request.scene);
+    const Stopwatch preparing;
+    const auto scene = preparedScene(request.scene);
     const std::vector<glm::vec4> rays = displayRays(display);
     const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
     const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);
     const auto middle = display.projection->unproject(glm::dvec2(display.sizePx) / 2.0);
     const TargetFormat format{request.output, request.linearOutput};
-    ImageBasedRenderer renderer(*scene, rays, display.sizePx, faceSizePx, faces,
+    ImageBasedRenderer renderer(scene->gpu, rays, display.sizePx, faceSizePx, faces,
                                 middle ? glm::length(*middle) : 1.0, {request.style, request.output}, format);
     const FrameTarget target(display.sizePx, format, 1);
-    stats.prepareMs = msSince(start);
+    stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
         renderer.record(sceneViewOf(camera, request.wall->eyeM, *request.scene), target,
@@ -223,10 +228,10 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
 
 RenderResult Renderer::Impl::reference(const RenderRequest& request, const Display& display) {
     RenderResult result;
-    const auto start = Clock::now();
+    const Stopwatch preparing;
     const auto renderer =
         references.get(request.scene, [&] { return std::make_shared<ReferenceRenderer>(request.scene); });
-    result.stats.prepareMs = msSince(start);
+    result.stats.prepareMs = preparing.ms();
     Frame latest;
     const auto draw = [&](const Camera& camera) {
         latest = renderer->render(*request.wall, display, camera,
@@ -240,7 +245,7 @@ RenderResult Renderer::Impl::reference(const RenderRequest& request, const Displ
     return result;
 }
 
-Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::Renderer(size_t mostScenes) : impl_(std::make_unique<Impl>(mostScenes)) {}
 Renderer::~Renderer() = default;
 
 RenderResult Renderer::render(const RenderRequest& request) {

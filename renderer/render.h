@@ -5,6 +5,7 @@
 #include "renderer/camera.h"
 #include "renderer/frame.h"
 #include "renderer/look.h"
+#include "renderer/request_limits.h"
 #include "renderer/scene/scene.h"
 #include "renderer/stats.h"
 
@@ -14,8 +15,6 @@
 namespace curvewall {
 
 enum class Method { piecewise, imageBased, reference };
-
-inline constexpr double kDefaultTolerancePx = 0.25;
 
 struct RenderRequest {
     WallPtr wall;
@@ -42,7 +41,8 @@ struct RenderResult {
 // GlUnavailable when there is none.
 class Renderer {
 public:
-    Renderer();
+    // Keeps what belongs to the `mostScenes` scenes used last.
+    explicit Renderer(size_t mostScenes = 4);
     ~Renderer();
 
     // Throws UsageError for what cannot be done.

@@ -12,7 +12,7 @@ namespace {
 
 class FrameMaker {
 public:
-    explicit FrameMaker(size_t maxLoadedScenes) : scenes_(maxLoadedScenes) {}
+    explicit FrameMaker(size_t maxLoadedScenes) : renderer_(maxLoadedScenes), scenes_(maxLoadedScenes) {}
 
     RenderedImage make(const RenderCall& call) {
         using Clock = std::chrono::steady_clock;
@@ -22,7 +22,7 @@ public:
         if (!call.cameraGiven) request.camera = request.scene->defaultCamera;
         const RenderResult result = renderer_.render(request);
         const Clock::time_point rendered = Clock::now();
-        const std::vector<uint8_t> bytes = encodeFrame(result.frame, call.format);
+        const std::vector<uint8_t> bytes = encodeFrame(result.frame, call.format, request.output);
 
         RenderedImage image;
         image.bytes.assign(bytes.begin(), bytes.end());

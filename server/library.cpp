@@ -1,9 +1,9 @@
 #include "server/library.h"
 
 #include "calibration/errors.h"
+#include "calibration/json_fields.h"
 #include "calibration/wall_reader.h"
 #include "renderer/scene/load_scene.h"
-#include "calibration/json_fields.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -80,6 +80,7 @@ void checkCitySize(std::string_view name, uint64_t maxTriangles) {
 
 Library openLibrary(const std::string& wallsFolder, const std::string& scenesFolder,
                     uint64_t maxCityTriangles) {
+    if (!fs::is_directory(wallsFolder)) throw InputError(wallsFolder, "", "a folder of wall files", "none");
     Library library;
     library.maxCityTriangles = maxCityTriangles;
     for (const fs::path& path : filesIn(wallsFolder)) {

@@ -1,8 +1,9 @@
 #include "server/render_api.h"
 
 #include "calibration/errors.h"
-#include "renderer/names.h"
 #include "calibration/json_fields.h"
+#include "renderer/names.h"
+#include "renderer/request_limits.h"
 
 #include <glm/trigonometric.hpp>
 #include <spdlog/spdlog.h>
@@ -18,10 +19,7 @@ namespace {
 
 constexpr Range kPositionM{-1e12, 1e12};
 constexpr Range kAngleDeg{-1e6, 1e6};
-constexpr Range kTolerancePx{0.001, 100};
-constexpr int kMinFaceSizePx = 16;
-constexpr int kMaxFaceSizePx = 8192;
-constexpr int kMaxSamples = 4096;
+constexpr Range kTolerancePx{kLeastTolerancePx, kMostTolerancePx};
 
 UsageError impossible(const std::string& field, const std::string& expected, const std::string& found) {
     return UsageError(field + ": expected " + expected + ", found " + found);
@@ -86,13 +84,13 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
     readName(fields, "method", methodFromName, methodNames, request.method);
     decodeEngine(fields);
     request.tolerancePx = fields.number("tolerance_px", kTolerancePx).value_or(request.tolerancePx);
-    if (const auto size = fields.wholeNumber("face_size", 0, kMaxFaceSizePx)) {
-        if (*size != 0 && *size < kMinFaceSizePx)
-            throw impossible("face_size", "0 or at least " + std::to_string(kMinFaceSizePx),
+    if (const auto size = fields.wholeNumber("face_size", 0, kMostFacePx)) {
+        if (*size != 0 && *size < kLeastFacePx)
+            throw impossible("face_size", "0 or at least " + std::to_string(kLeastFacePx),
                              std::to_string(*size));
         request.faceSizePx = static_cast<int>(*size);
     }
-    request.samples = static_cast<int>(fields.wholeNumber("samples", 1, kMaxSamples).value_or(1));
+    request.samples = static_cast<int>(fields.wholeNumber("samples", 1, kMostSamples).value_or(1));
     readName(fields, "style", styleFromName, styleNames, request.style);
     readName(fields, "output_kind", outputKindFromName, outputKindNames, request.output);
     decodeFormat(fields, call);
@@ -104,8 +102,9 @@ void checkCost(const RenderRequest& request, const Display& display, uint64_t ma
     constexpr uint64_t kCubeFaces = 6;
     const auto square = [](int side) { return static_cast<uint64_t>(side) * static_cast<uint64_t>(side); };
     const uint64_t pixels = static_cast<uint64_t>(display.sizePx.x) * static_cast<uint64_t>(display.sizePx.y);
-    const uint64_t drawn =
-        request.method == Method::imageBased ? kCubeFaces * square(request.faceSizePx) : pixels;
+    // Which size the display asks for is not known before its rays are.
+    const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : kMostAutomaticFacePx;
+    const uint64_t drawn = request.method == Method::imageBased ? kCubeFaces * square(faceSizePx) : pixels;
     const uint64_t samples = drawn * static_cast<uint64_t>(request.samples);
     if (samples > maxSamplesPerFrame)
         throw impossible("samples",

@@ -78,6 +78,21 @@ TEST(PieceFit, AFlatScreenIsOnePieceWithoutError) {
     EXPECT_LT(fitted.certificate.maxPx, 1e-9);
 }
 
+TEST(PieceFit, TolerancesThatNothingCanMeetAreRefused) {
+    const Wall wall = test::fullCylinderWall({160, 120});
+    for (double tolerancePx : {0.0, -1.0, double(NAN), double(INFINITY)})
+        EXPECT_THROW(fit(wall, tolerancePx), UsageError);
+    EXPECT_THROW(fit(wall, 1e-12), UsageError);
+}
+
+TEST(PieceFit, AWallSeenFromFarAboveKeepsItsQuads) {
+    // The homographies of such facets are badly conditioned; that they are parallelograms is not in doubt.
+    const Wall wall = test::fullCylinderWall({160, 120}, {0, 1000, 0});
+    const FittedPieces fitted = fit(wall, 0.25);
+    EXPECT_LE(fitted.certificate.maxPx, 0.25);
+    for (const Piece& piece : fitted.mesh.pieces) EXPECT_EQ(piece.vertexCount, 4u);
+}
+
 class PieceFitWalls : public ::testing::TestWithParam<Wall> {};
 
 TEST_P(PieceFitWalls, MeetTheToleranceAtEveryPixel) {

@@ -87,6 +87,7 @@ TEST_F(WallReader, ErrorsNameTheFileTheFieldAndWhatWasExpected) {
         {"/displays", "{}", "displays", "one entry at least"},
         {"/displays/0", "7", "displays[0]", "an object"},
         {"/displays/0/name", "\"\"", "displays[0].name", "a name"},
+        {"/displays/0/name", "\"../front\"", "displays[0].name", "without slashes"},
         {"/displays/1/name", "\"front\"", "displays[1].name", "a name of its own"},
         {"/displays/0/size", "[640]", "displays[0].size", "a list of 2 numbers"},
         {"/displays/0/size/1", "0", "displays[0].size[1]", "a whole number from 1 to 16384"},

@@ -121,6 +121,8 @@ TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
              {"rendr", 2, "rendr"},
              {render + "--tolerence 1", 2, "--tolerence"},
              {render + "--tolerance 0", 2, "--tolerance"},
+             {render + "--tolerance nan", 2, "--tolerance"},
+             {render + "--face-size 15", 2, "--face-size"},
              {render + "--method magic", 2, "piecewise, image-based or reference"},
              {render + "--style cubist", 2, "textured or unlit"},
              {render + "--engine loop", 2, "compute"},
@@ -132,7 +134,7 @@ TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
              {"render " + file("none.json") + " --scene room", 3, "none.json"},
              {"render " + wall() + " --scene " + file("none.glb"), 3, "none.glb"},
              {"render " + wall() + " --scene " + wall(), 3, "wall.json"},
-             {render + "--out " + file("no/such/folder.png"), 1, "folder-left.png"},
+             {render + "--out " + file("no/such/folder.png"), 1, "there is no folder"},
              {"serve " + file("none.json"), 3, "none.json"},
          }) {
         const Outcome outcome = run("", c.arguments);

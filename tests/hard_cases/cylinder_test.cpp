@@ -53,7 +53,9 @@ protected:
     int drawnPixels(RenderRequest request) {
         request.output = OutputKind::position;
         const Frame drawn = Renderer().render(request).frame;
-        return static_cast<int>(std::ranges::count_if(drawn.texels, [](float t) { return std::isfinite(t); })) / 3;
+        return static_cast<int>(
+                   std::ranges::count_if(drawn.texels, [](float t) { return std::isfinite(t); })) /
+               3;
     }
 
     // `edgePx` is about how long the outlines are on the screen: within the tolerance of them pixels may
@@ -188,6 +190,29 @@ TEST_F(HardCases, TrianglesNearerThanTheNearCutAreCutByEveryMethod) {
         EXPECT_EQ(drawnPixels(cut), 0) << static_cast<int>(method);
     }
     expectLikeReference(coloured({ahead(4e-5f)}), 600);
+}
+
+TEST_F(HardCases, SmallSingleSidedTrianglesFarAwayTurnTheirRightSide) {
+    // A surface of 5 cm triangles, one kilometre away, that faces the eye through a narrow display.
+    Scene scene;
+    Material material = plainMaterial({0.9, 0.8, 0.2});
+    material.doubleSided = false;
+    startMaterial(scene, material);
+    const glm::mat3 turn(rotationFromOrientation({0.7, 0.5, 0}));
+    const auto at = [&](int x, int y) {
+        return turn * glm::vec3(0.05f * float(x - 100), 0.05f * float(y - 100), -1000);
+    };
+    for (int x = 0; x < 200; ++x)
+        for (int y = 0; y < 200; ++y)
+            addQuad(scene, {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+    const CylinderWall narrow{2, 0.012, 0.018, {}, {0.7, 0.5, 0}};
+    RenderRequest request = test::requestFor(test::cylinderWall(narrow, {}, {800, 600}), std::move(scene));
+    request.tolerancePx = 0.002;  // several pieces
+    EXPECT_GT(Renderer().render(request).stats.pieces, 1);
+    const Cover cover = coverOf(request);
+    EXPECT_GT(cover.shown, 100'000);
+    EXPECT_LT(cover.wrong, 1000);  // its outline
+    EXPECT_LT(test::differenceFromReference(request).shareOff, 0.01);
 }
 
 }  // namespace

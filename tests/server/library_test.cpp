@@ -38,15 +38,17 @@ TEST(Library, ScenesAreFilesOfTheFolderAndOfItsSubfolders) {
     for (const char* name : {"one.gltf", "two.glb", "deep/three.obj", "deep/deeper/four.glb", "texture.png",
                              "two.obj", "city.glb"})
         folder.write(name, "");
-    const Library library = openLibrary(folder.path("none"), folder.path(), kMaxCityTriangles);
+    const Library library = openLibrary(folder.path(), folder.path(), kMaxCityTriangles);
     EXPECT_THAT(sceneNames(library), ElementsAre("city", "room", "one", "three", "two"));
     EXPECT_THAT(findScene(library, "three"), EndsWith("deep/three.obj"));
     EXPECT_THAT(findScene(library, "two"), EndsWith("two.glb"));
     EXPECT_EQ(findScene(library, "city"), "city");
 }
 
-TEST(Library, NothingIsNeededInTheFolders) {
-    const Library library = openLibrary("/nonexistent/walls", "/nonexistent/scenes", kMaxCityTriangles);
+TEST(Library, AFolderOfWallsMustBeThereAndScenesMayBeMissing) {
+    const TempFolder folder;
+    EXPECT_THROW(openLibrary(folder.path("none"), folder.path(), kMaxCityTriangles), InputError);
+    const Library library = openLibrary(folder.path(), folder.path("none"), kMaxCityTriangles);
     EXPECT_THAT(wallNames(library), ElementsAre());
     for (const std::string& name : sceneNames(library)) EXPECT_TRUE(isBuiltInScene(name)) << name;
 }
@@ -65,7 +67,8 @@ TEST(Library, NamesAreNeverPaths) {
 }
 
 TEST(Library, ACityIsNoLargerThanAllowed) {
-    const Library library = openLibrary("", "", kMaxCityTriangles);
+    const TempFolder folder;
+    const Library library = openLibrary(folder.path(), folder.path(), kMaxCityTriangles);
     EXPECT_EQ(findScene(library, "city:1000"), "city:1000");
     EXPECT_EQ(findScene(library, "city:1000:7"), "city:1000:7");
     for (const char* name : {"city:1001", "city:1001:7", "city:99999999999999999999999", "city:", "city:-1",

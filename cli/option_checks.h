@@ -1,0 +1,16 @@
+#pragma once
+// Checks of option values as CLI11 wants them: an empty text, or what is wrong.
+
+#include <string>
+
+namespace curvewall {
+
+// Ranges as in renderer/request_limits.h. CLI11's own range check lets NaN pass.
+std::string checkTolerance(std::string& text);
+std::string checkFaceSize(std::string& text);  // 0 or a size
+
+// Throws std::runtime_error unless the folder that `path` names a file in is there: before the work, not
+// after it.
+void requireFolderOf(const std::string& path);
+
+}  // namespace curvewall
