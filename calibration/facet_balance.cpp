@@ -134,8 +134,8 @@ double summedDistanceM(const std::vector<PieceVertex>& vertices) {
     return sum;
 }
 
-// Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets stay as far
-// from the eye as the wall, for depth is measured by them.
+// Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets
+// stay as far from the eye as the wall, for depth is measured by them.
 void moveVertices(std::vector<PieceVertex>& vertices, const Motion& motion, const Eigen::VectorXd& step) {
     const double distanceM = summedDistanceM(vertices);
     for (size_t v = 0; v < vertices.size(); ++v)

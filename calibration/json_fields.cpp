@@ -71,7 +71,9 @@ int64_t checkedWholeNumber(const json& value, const std::string& field, int64_t 
     return value.get<int64_t>();
 }
 
-std::string placeOf(const std::string& list, size_t index) { return list + "[" + std::to_string(index) + "]"; }
+std::string placeOf(const std::string& list, size_t index) {
+    return list + "[" + std::to_string(index) + "]";
+}
 
 }  // namespace
 
@@ -158,7 +160,9 @@ std::vector<JsonFields> JsonFields::objects(const char* key) {
     const json* list = find(key);
     if (!list || !list->is_array() || list->empty())
         throw FieldError(FieldError::Kind::shape, nameOf(key), "a list with one entry at least",
-                         !list ? "nothing" : list->is_array() ? "none" : describe(*list));
+                         !list              ? "nothing"
+                         : list->is_array() ? "none"
+                                            : describe(*list));
     std::vector<JsonFields> objects;
     for (const json& value : *list) objects.emplace_back(value, placeOf(nameOf(key), objects.size()));
     return objects;
@@ -196,7 +200,8 @@ const json* JsonFields::findList(const char* key, size_t count) {
     const json* value = find(key);
     if (!value) return nullptr;
     if (!value->is_array() || value->size() != count)
-        throw FieldError(FieldError::Kind::shape, nameOf(key), "a list of " + std::to_string(count) + " numbers",
+        throw FieldError(FieldError::Kind::shape, nameOf(key),
+                         "a list of " + std::to_string(count) + " numbers",
                          value->is_array() ? "a list of " + std::to_string(value->size()) : describe(*value));
     return value;
 }

@@ -1,10 +1,10 @@
 #pragma once
 // JSON files: what is wrong with one names the file.
 
-#include <string>
-
 #include "calibration/errors.h"
 #include "calibration/json_fields.h"
+
+#include <string>
 
 namespace curvewall {
 

@@ -1,12 +1,12 @@
 #include "calibration/wall_reader.h"
 
-#include <numbers>
-#include <set>
-
 #include "calibration/cylinder.h"
 #include "calibration/errors.h"
 #include "calibration/json_file.h"
 #include "calibration/planar.h"
+
+#include <numbers>
+#include <set>
 
 namespace curvewall {
 namespace {
@@ -30,7 +30,9 @@ struct Pose {
 };
 
 Pose readPose(JsonFields& fields) {
-    const auto angleRad = [&](const char* key) { return fields.number(key, kAngleDeg).value_or(0) * kRadFromDeg; };
+    const auto angleRad = [&](const char* key) {
+        return fields.number(key, kAngleDeg).value_or(0) * kRadFromDeg;
+    };
     return {vector3(fields, "center", kAnywhereM).value_or(glm::dvec3(0)),
             {angleRad("yaw_deg"), angleRad("pitch_deg"), angleRad("roll_deg")}};
 }
@@ -47,21 +49,26 @@ ProjectionPtr readPlanar(JsonFields& fields, glm::dvec3 eyeM, glm::ivec2 sizePx)
 
 ProjectionPtr readCylinder(JsonFields& fields, glm::dvec3 eyeM, glm::ivec2 sizePx) {
     const Pose pose = readPose(fields);
-    const auto number = [&](const char* key, Range range) { return fields.required(key, fields.number(key, range)); };
+    const auto number = [&](const char* key, Range range) {
+        return fields.required(key, fields.number(key, range));
+    };
     const CylinderWall cylinder{number("radius", kLengthM), number("arc_deg", {0, 360, true}) * kRadFromDeg,
                                 number("height", kLengthM), pose.centerM, pose.orientation};
     return std::make_shared<CylinderProjection>(cylinder, eyeM, sizePx);
 }
 
-ProjectionPtr readProjection(JsonFields& fields, const std::string& type, glm::dvec3 eyeM, glm::ivec2 sizePx) {
+ProjectionPtr readProjection(JsonFields& fields, const std::string& type, glm::dvec3 eyeM,
+                             glm::ivec2 sizePx) {
     if (type == "planar") return readPlanar(fields, eyeM, sizePx);
     if (type == "cylinder") return readCylinder(fields, eyeM, sizePx);
-    throw FieldError(FieldError::Kind::value, fields.nameOf("type"), "planar or cylinder", "\"" + type + "\"");
+    throw FieldError(FieldError::Kind::value, fields.nameOf("type"), "planar or cylinder",
+                     "\"" + type + "\"");
 }
 
 std::string readName(JsonFields& fields, const char* key) {
     std::string name = fields.required(key, fields.text(key));
-    if (name.empty()) throw FieldError(FieldError::Kind::value, fields.nameOf(key), "a name", "an empty string");
+    if (name.empty())
+        throw FieldError(FieldError::Kind::value, fields.nameOf(key), "a name", "an empty string");
     return name;
 }
 
@@ -76,8 +83,8 @@ Display readDisplay(JsonFields& fields, glm::dvec3 eyeM) {
     try {
         display.projection = readProjection(projection, display.projectionType, eyeM, display.sizePx);
     } catch (const UsageError& error) {
-        throw FieldError(FieldError::Kind::value, fields.nameOf("projection"), "a screen that the eye can see",
-                         error.what());
+        throw FieldError(FieldError::Kind::value, fields.nameOf("projection"),
+                         "a screen that the eye can see", error.what());
     }
     projection.refuseUnknownKeys();
     fields.refuseUnknownKeys();

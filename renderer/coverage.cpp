@@ -31,7 +31,8 @@ std::vector<MaterialRange> rangesWithin(const SceneChunk& chunk, uint32_t first,
 }
 
 GlProgram computeProgram(std::string_view file, const std::string& mode) {
-    return makeProgram({{GL_COMPUTE_SHADER, file}}, {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
+    return makeProgram({{GL_COMPUTE_SHADER, file}},
+                       {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
                         "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u"});
 }
 

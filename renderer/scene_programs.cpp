@@ -1,9 +1,9 @@
 #include "renderer/scene_programs.h"
 
+#include "renderer/coverage.h"
+
 #include <string>
 #include <vector>
-
-#include "renderer/coverage.h"
 
 namespace curvewall {
 namespace {

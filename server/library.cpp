@@ -1,9 +1,9 @@
 #include "server/library.h"
 
 #include "calibration/errors.h"
+#include "calibration/json_fields.h"
 #include "calibration/wall_reader.h"
 #include "renderer/scene/load_scene.h"
-#include "calibration/json_fields.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>

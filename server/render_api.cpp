@@ -1,8 +1,8 @@
 #include "server/render_api.h"
 
 #include "calibration/errors.h"
-#include "renderer/names.h"
 #include "calibration/json_fields.h"
+#include "renderer/names.h"
 
 #include <glm/trigonometric.hpp>
 #include <spdlog/spdlog.h>

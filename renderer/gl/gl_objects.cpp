@@ -20,7 +20,8 @@ GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels) {
     glCreateTextures(GL_TEXTURE_2D, 1, &id);
     GlTexture texture(id);
     glTextureStorage2D(id, levels, internalFormat, sizePx.x, sizePx.y);
-    // Where a sampler object does not say otherwise. Integer textures are incomplete under the default, which is linear.
+    // Where a sampler object does not say otherwise. Integer textures are incomplete under the default, which
+    // is linear.
     glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;

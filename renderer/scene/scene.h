@@ -1,16 +1,16 @@
 #pragma once
 // A scene as the renderers see it: triangles, materials, textures. Value type, no GL.
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
+#include "renderer/camera.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "renderer/camera.h"
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace curvewall {
 
@@ -32,11 +32,11 @@ struct Texture {
 
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1};     // linear light, multiplies the texture
-    int texture = -1;           // index into Scene::textures, or -1
-    float alphaCutoff = -1;     // fragments with less alpha are discarded; negative: opaque
-    bool doubleSided = true;    // otherwise triangles seen from behind are not drawn
-    bool unlit = false;         // KHR_materials_unlit
+    glm::vec4 baseColor{1};   // linear light, multiplies the texture
+    int texture = -1;         // index into Scene::textures, or -1
+    float alphaCutoff = -1;   // fragments with less alpha are discarded; negative: opaque
+    bool doubleSided = true;  // otherwise triangles seen from behind are not drawn
+    bool unlit = false;       // KHR_materials_unlit
 };
 
 // A run of triangles that share a material.

@@ -53,7 +53,9 @@ protected:
     int drawnPixels(RenderRequest request) {
         request.output = OutputKind::position;
         const Frame drawn = Renderer().render(request).frame;
-        return static_cast<int>(std::ranges::count_if(drawn.texels, [](float t) { return std::isfinite(t); })) / 3;
+        return static_cast<int>(
+                   std::ranges::count_if(drawn.texels, [](float t) { return std::isfinite(t); })) /
+               3;
     }
 
     // `edgePx` is about how long the outlines are on the screen: within the tolerance of them pixels may

@@ -1,6 +1,5 @@
 #include "renderer/gl/gl_objects.h"
 
-
 #include "renderer/gl/program.h"
 #include "tests/support/gl_fixture.h"
 

@@ -95,8 +95,10 @@ TEST_F(Piecewise, EveryPixelShowsAPointWithinTheCertifiedError) {
             request.tolerancePx = tolerancePx;
             const RenderResult result = renderer_.render(request);
             ASSERT_LE(result.stats.geometricError.maxPx, tolerancePx);
-            // OpenGL rasterizes vertices on a grid of 1/256 px, and the positions are interpolated between those.
-            EXPECT_LE(largestPositionErrorPx(result.frame, eye), result.stats.geometricError.maxPx + 1.0 / 256);
+            // OpenGL rasterizes vertices on a grid of 1/256 px, and the positions are interpolated between
+            // those.
+            EXPECT_LE(largestPositionErrorPx(result.frame, eye),
+                      result.stats.geometricError.maxPx + 1.0 / 256);
         }
     }
 }
