@@ -96,9 +96,10 @@ std::array<bool, 6> facesSeen(const std::vector<glm::vec4>& rays, int faceSizePx
     for (const glm::vec4& ray : rays) {
         if (!isRay(ray)) continue;
         const float largest = std::max({std::abs(ray.x), std::abs(ray.y), std::abs(ray.z)});
-        for (int axis = 0; axis < 3; ++axis)
-            if (std::abs(ray[axis]) >= nearest * largest)
-                seen[static_cast<size_t>(2 * axis + (ray[axis] > 0 ? 0 : 1))] = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int face = 2 * axis + (ray[axis] > 0 ? 0 : 1);
+            if (std::abs(ray[axis]) >= nearest * largest) seen[static_cast<size_t>(face)] = true;
+        }
     }
     return seen;
 }

@@ -42,7 +42,8 @@ public:
 private:
     struct Variant {
         bool lit = false, textured = false, masked = false, singleSided = false;
-        auto operator<=>(const Variant&) const = default;
+        // clang-tidy 14 takes the 0 of the comparisons made from it for a pointer.
+        auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
     };
     struct Entry {
         GlProgram program;

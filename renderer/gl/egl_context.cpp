@@ -17,8 +17,9 @@ constexpr bool kDebugContext = false;
 constexpr bool kDebugContext = true;
 #endif
 
-void onGlMessage(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void*) {
-    if (type != GL_DEBUG_TYPE_ERROR) return;
+void onGlMessage(GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void*) {
+    // Mesa reports shaders that do not compile here as well; makeProgram() throws those with their file.
+    if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
     spdlog::critical("OpenGL: {}", message);
     std::abort();  // our own bug
 }

@@ -13,10 +13,6 @@
 #include <random>
 #include <regex>
 
-// OpenImageIO 2.4 loses a string in PNGInput::PngReadCallback when a PNG ends early: libpng jumps over it.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __lsan_default_suppressions() { return "leak:ImageInput::geterror\n"; }  // NOLINT
-
 namespace curvewall {
 namespace {
 

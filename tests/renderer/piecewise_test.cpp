@@ -252,8 +252,8 @@ TEST_F(Piecewise, AlphaMasksLetTheBackgroundThrough) {
     addFrontalSquare(scene, {0, 0, -2}, 4);
     const RenderRequest request = test::requestFor(test::fullCylinderWall({400, 300}), scene);
     EXPECT_LT(test::differenceFromReference(request).shareOff, 0.002);
-    const float* right = Renderer().render(request).frame.at(225, 150);
-    EXPECT_EQ(right[0], 0);  // the transparent half
+    const Frame frame = Renderer().render(request).frame;
+    EXPECT_EQ(*frame.at(225, 150), 0);  // the transparent half
 }
 
 }  // namespace

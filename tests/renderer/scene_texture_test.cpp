@@ -10,9 +10,6 @@
 #include <iterator>
 #include <numeric>
 
-// OpenImageIO's PNG reader loses its message where libpng jumps out of it.
-extern "C" const char* __lsan_default_suppressions() { return "leak:OpenImageIO"; }  // NOLINT
-
 namespace curvewall {
 namespace {
 

@@ -5,8 +5,20 @@
 #include "calibration/planar.h"
 #include "calibration/wall.h"
 
+#include <cmath>
 #include <memory>
 #include <numbers>
+#include <ostream>
+
+namespace curvewall {
+
+// GoogleTest would print the bytes, addresses among them, into the names that ctest shows.
+inline void PrintTo(const Wall& wall, std::ostream* out) {
+    const Display& display = wall.displays.front();
+    *out << display.projectionType << ' ' << display.sizePx.x << 'x' << display.sizePx.y;
+}
+
+}  // namespace curvewall
 
 namespace curvewall::test {
 
