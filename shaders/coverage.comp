@@ -52,23 +52,31 @@ uint groupPrefix(uint value) {
     return sums[self] - value;
 }
 
-// Walks the tree. COUNT keeps the first pieces found and returns how many there are; EMIT writes the pairs from `next` on.
-uint walk(vec3 a, vec3 b, vec3 c, uint triangleAndFacing, uint next, inout uvec3 kept) {
+#ifdef COUNT
+uvec3 kept = uvec3(0u);  // the first pieces of this invocation's triangle
+
+void take(uint piece, uint nth) {
+    if (nth < KEPT) kept[nth] = piece;
+}
+#else
+uint next;  // pair of this invocation's triangle
+uint triangleAndFacing;
+
+void take(uint piece, uint nth) {
+    if (next + nth < capacity) pairs[next + nth] = uvec2(triangleAndFacing, piece);
+}
+#endif
+
+// Takes every piece that the triangle may touch, and counts them.
+uint walk(uint triangle) {
+    vec3 a = cornerRay(triangle, 0u), b = cornerRay(triangle, 1u), c = cornerRay(triangle, 2u);
     uint count = 0u;
     for (uint i = 0u; i < nodeCount;) {
         if (outside(nodes[i], a, b, c)) {
             i = nodes[i].link.x;
             continue;
         }
-        uint piece = nodes[i].link.y;
-        if (piece != NO_PIECE) {
-#ifdef EMIT
-            if (next + count < capacity) pairs[next + count] = uvec2(triangleAndFacing, piece);
-#else
-            if (count < KEPT) kept[count] = piece;
-#endif
-            ++count;
-        }
+        if (nodes[i].link.y != NO_PIECE) take(nodes[i].link.y, count++);
         ++i;
     }
     return count;
@@ -84,9 +92,8 @@ void main() {
         // Facing is a property of the triangle and the eye, not of any piece's screen. This is det(a, b, c) without
         // its cancellation, which gives a small triangle far away either sign.
         bool behind = dot(a, cross(b - a, c - a)) > 0.0;
-        uvec3 kept = uvec3(0u);
         if (!behind || (singleSided[triangle / 32u] >> (triangle % 32u) & 1u) == 0u)
-            count = walk(a, b, c, triangle, 0u, kept);
+            count = walk(triangle);
         found[index] = uvec4(kept, count | (behind ? SEEN_FROM_BEHIND : 0u));
     }
     uint before = groupPrefix(count);
@@ -94,16 +101,14 @@ void main() {
     if (gl_LocalInvocationIndex == GROUP_SIZE - 1u) groupPairs[gl_WorkGroupID.x] = before + count;
 #else
     if (index >= triangleCount) return;
-    uint next = firstPair[index] + groupPairs[gl_WorkGroupID.x];
+    next = firstPair[index] + groupPairs[gl_WorkGroupID.x];
     firstPair[index] = next;
-    uvec3 kept = found[index].xyz;
     uint count = found[index].w & ~SEEN_FROM_BEHIND;
-    uint triangleAndFacing = triangle | (found[index].w & SEEN_FROM_BEHIND);
+    triangleAndFacing = triangle | (found[index].w & SEEN_FROM_BEHIND);
     if (count > KEPT) {
-        walk(cornerRay(triangle, 0u), cornerRay(triangle, 1u), cornerRay(triangle, 2u), triangleAndFacing, next, kept);
+        walk(triangle);
     } else {
-        for (uint i = 0u; i < count; ++i)
-            if (next + i < capacity) pairs[next + i] = uvec2(triangleAndFacing, kept[i]);
+        for (uint i = 0u; i < count; ++i) take(found[index][i], i);
     }
 #endif
 }
