@@ -33,7 +33,7 @@ protected:
         std::ofstream(path()) << text;
         return readWall(path());
     }
-    std::string path() const { return folder_.file("wall.json"); }
+    std::string path() const { return folder_.path("wall.json"); }
     std::string complaintAbout(const std::string& text) {
         try {
             read(text);

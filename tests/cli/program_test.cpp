@@ -53,8 +53,8 @@ protected:
              "projection": {"type": "planar", "lower_left": [-1, -1, -1], "lower_right": [1, -1, -1],
                             "upper_left": [-1, 1, -1]}}]})";
     }
-    std::string wall() const { return folder_.file("wall.json"); }
-    std::string file(const std::string& name) const { return folder_.file(name); }
+    std::string wall() const { return folder_.path("wall.json"); }
+    std::string file(const std::string& name) const { return folder_.path(name); }
 
     test::TemporaryFolder folder_;
 };

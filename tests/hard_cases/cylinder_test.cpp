@@ -149,7 +149,7 @@ TEST_F(HardCases, SliversOfAClosedFanLeaveNoGap) {
 
 TEST_F(HardCases, ZeroAreaAndNanTrianglesInAFileLeaveTheRestUntouched) {
     const test::TemporaryFolder folder;
-    const std::string path = folder.file("broken.obj");
+    const std::string path = folder.path("broken.obj");
     std::ofstream(path)
         << "v -1 -1 -3\nv 1 -1 -3\nv 0 1 -3\nv nan 0 -3\nv 2 0 -3\nv 2 0 -3\nv 2 0 -3\nv 0 0 inf\n"
            "f 4 1 2\nf 5 6 7\nf 1 2 3\nf 1 1 2\nf 3 8 1\n";

@@ -1,7 +1,7 @@
 #include "server/daemon_config.h"
 
 #include "calibration/errors.h"
-#include "tests/server/temp_folder.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ protected:
         return "no complaint";
     }
 
-    TempFolder folder_;
+    test::TemporaryFolder folder_;
 };
 
 TEST_F(DaemonConfigTest, NoKeyIsNeeded) {

@@ -1,7 +1,8 @@
 // The program itself: `curvewall serve` with a real renderer, many clients, good and bad ones.
 
 #include "tests/server/http_client.h"
-#include "tests/server/temp_folder.h"
+#include "tests/server/small_wall.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,7 +94,7 @@ protected:
         port_ = static_cast<uint16_t>(std::stoi(line.substr(prefix.size())));
     }
 
-    TempFolder folder_;
+    test::TemporaryFolder folder_;
     std::string config_;
     std::unique_ptr<ServeProcess> process_;
     uint16_t port_ = 0;

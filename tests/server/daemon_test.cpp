@@ -4,7 +4,8 @@
 
 #include "calibration/errors.h"
 #include "tests/server/http_client.h"
-#include "tests/server/temp_folder.h"
+#include "tests/server/small_wall.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -99,7 +100,7 @@ protected:
 
     HttpClient client() const { return HttpClient(port_); }
 
-    TempFolder folder_;
+    test::TemporaryFolder folder_;
     DaemonConfig config_;
     std::mutex mutex_;  // guards the next three
     std::condition_variable changed_;

@@ -2,7 +2,8 @@
 
 #include "calibration/errors.h"
 #include "renderer/scene/load_scene.h"
-#include "tests/server/temp_folder.h"
+#include "tests/server/small_wall.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 constexpr uint64_t kMaxCityTriangles = 1000;
 
 TEST(Library, WallsAreTheJsonObjectsWithAWall) {
-    const TempFolder folder;
+    const test::TemporaryFolder folder;
     folder.write("b-wall.json", kSmallWall);
     folder.write("a-wall.json", kSmallWall);
     folder.write("daemon.json", R"({"port": 1})");
@@ -34,7 +35,7 @@ TEST(Library, WallsAreTheJsonObjectsWithAWall) {
 }
 
 TEST(Library, ScenesAreFilesOfTheFolderAndOfItsSubfolders) {
-    const TempFolder folder;
+    const test::TemporaryFolder folder;
     for (const char* name : {"one.gltf", "two.glb", "deep/three.obj", "deep/deeper/four.glb", "texture.png",
                              "two.obj", "city.glb"})
         folder.write(name, "");
@@ -46,7 +47,7 @@ TEST(Library, ScenesAreFilesOfTheFolderAndOfItsSubfolders) {
 }
 
 TEST(Library, AFolderOfWallsMustBeThereAndScenesMayBeMissing) {
-    const TempFolder folder;
+    const test::TemporaryFolder folder;
     EXPECT_THROW(openLibrary(folder.path("none"), folder.path(), kMaxCityTriangles), InputError);
     const Library library = openLibrary(folder.path(), folder.path("none"), kMaxCityTriangles);
     EXPECT_THAT(wallNames(library), ElementsAre());
@@ -54,7 +55,7 @@ TEST(Library, AFolderOfWallsMustBeThereAndScenesMayBeMissing) {
 }
 
 TEST(Library, NamesAreNeverPaths) {
-    const TempFolder folder;
+    const test::TemporaryFolder folder;
     const std::string wall = folder.write("wall.json", kSmallWall);
     const std::string scene = folder.write("scenes/scene.glb", "");
     const Library library = openLibrary(folder.path(), folder.path("scenes"), kMaxCityTriangles);
@@ -67,7 +68,7 @@ TEST(Library, NamesAreNeverPaths) {
 }
 
 TEST(Library, ACityIsNoLargerThanAllowed) {
-    const TempFolder folder;
+    const test::TemporaryFolder folder;
     const Library library = openLibrary(folder.path(), folder.path(), kMaxCityTriangles);
     EXPECT_EQ(findScene(library, "city:1000"), "city:1000");
     EXPECT_EQ(findScene(library, "city:1000:7"), "city:1000:7");
