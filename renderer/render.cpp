@@ -8,13 +8,13 @@
 #include "renderer/gl/egl_context.h"
 #include "renderer/image_based.h"
 #include "renderer/piecewise.h"
+#include "renderer/recently_used.h"
 #include "renderer/reference.h"
 
 #include <glm/geometric.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <deque>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -38,30 +38,6 @@ Camera cameraOfFrame(const RenderRequest& request, int frame) {
     camera.orientation.yawRad += 2 * std::numbers::pi * frame / request.frames;
     return camera;
 }
-
-// What is worth keeping between renders: the most recently used few.
-template <class Key, class Value>
-class RecentlyUsed {
-public:
-    explicit RecentlyUsed(size_t most) : most_(most) {}
-
-    std::shared_ptr<Value> get(const Key& key, const std::function<std::shared_ptr<Value>()>& make) {
-        auto found = std::ranges::find(entries_, key, &Entry::key);
-        Entry entry = found != entries_.end() ? *found : Entry{key, make()};
-        if (found != entries_.end()) entries_.erase(found);
-        entries_.push_front(entry);
-        if (entries_.size() > most_) entries_.pop_back();
-        return entry.value;
-    }
-
-private:
-    struct Entry {
-        Key key;
-        std::shared_ptr<Value> value;
-    };
-    size_t most_;
-    std::deque<Entry> entries_;  // newest first
-};
 
 struct PiecesKey {
     WallPtr wall;
@@ -107,8 +83,8 @@ void waitForGpu() {
 // the time.
 void measureFrames(const RenderRequest& request, const std::function<void(const Camera&)>& draw,
                    const std::function<void()>& readFirst, RenderStats& stats) {
-    if (request.frames > 1)
-        draw(cameraOfFrame(request, 0));  // a driver compiles its last parts at the first draw
+    // A driver compiles its last parts at the first draw; the reference has nothing to compile.
+    if (request.frames > 1 && request.method != Method::reference) draw(cameraOfFrame(request, 0));
     std::vector<double> frameMs;
     for (int frame = 0; frame < request.frames; ++frame) {
         const Stopwatch drawing;

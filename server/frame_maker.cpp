@@ -40,20 +40,10 @@ private:
 
 }  // namespace
 
-SceneCache::SceneCache(size_t capacity, Load load) : capacity_(capacity), load_(std::move(load)) {}
+SceneCache::SceneCache(size_t capacity, Load load) : load_(std::move(load)), scenes_(capacity) {}
 
 ScenePtr SceneCache::get(const std::string& name) {
-    const auto found = std::find_if(scenes_.begin(), scenes_.end(),
-                                    [&name](const auto& entry) { return entry.first == name; });
-    if (found != scenes_.end()) {
-        scenes_.splice(scenes_.begin(), scenes_, found);
-        return found->second;
-    }
-    // Makes room first, so that no more scenes than the capacity are ever in memory.
-    if (scenes_.size() >= capacity_) scenes_.pop_back();
-    auto scene = std::make_shared<const Scene>(load_(name));
-    scenes_.emplace_front(name, scene);
-    return scene;
+    return scenes_.get(name, [&] { return std::make_shared<const Scene>(load_(name)); });
 }
 
 RenderFunction makeFrameMaker(size_t maxLoadedScenes) {

@@ -1,14 +1,13 @@
 #pragma once
 // What the render thread does for a call: load the scene, render, encode.
 
+#include "renderer/recently_used.h"
 #include "renderer/scene/load_scene.h"
 #include "server/render_call.h"
 
 #include <cstddef>
 #include <functional>
-#include <list>
 #include <string>
-#include <utility>
 
 namespace curvewall {
 
@@ -22,9 +21,8 @@ public:
     ScenePtr get(const std::string& name);
 
 private:
-    const size_t capacity_;
     const Load load_;
-    std::list<std::pair<std::string, ScenePtr>> scenes_;  // the most recent first
+    RecentlyUsed<std::string, const Scene> scenes_;
 };
 
 // A render function with its own Renderer and SceneCache.

@@ -171,6 +171,42 @@ TEST_F(HardCases, SceneAThousandKilometresAwayRendersLikeOneBesideTheOrigin) {
     EXPECT_LT(test::differenceFromReference(there).shareOff, 0.003);
 }
 
+TEST_F(HardCases, RootNodeAThousandKilometresAwayKeepsEveryDetail) {
+    // 300 triangles of about 10 cm, 2 m from the eye, as a file whose root node moves them away.
+    const test::TemporaryFolder folder;
+    test::Random random(3);
+    std::string positions;
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 centre = 2.0 * random.direction();
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 corner = centre + random.inBox(0.1);
+            positions.append(reinterpret_cast<const char*>(&corner), sizeof corner);
+        }
+    }
+    folder.write("triangles.bin", positions);
+    const auto sceneAt = [&](const std::string& name, const std::string& translation) {
+        const std::string bytes = std::to_string(positions.size());
+        return loadScene(
+            folder.write(name, R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"translation": )" +
+                                   translation + R"(, "children": [1]}, {"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"uri": "triangles.bin", "byteLength": )" +
+                                   bytes + R"(}],
+            "bufferViews": [{"buffer": 0, "byteLength": )" +
+                                   bytes + R"(}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 900, "type": "VEC3",
+                           "min": [-3, -3, -3], "max": [3, 3, 3]}]})"));
+    };
+    const Wall wall = test::fullCylinderWall(kSizePx);
+    const RenderRequest here = test::requestFor(wall, sceneAt("here.gltf", "[0, 0, 0]"));
+    const RenderRequest there = test::requestFor(wall, sceneAt("there.gltf", "[700000, 30000, -700000]"),
+                                                 {{700'000, 30'000, -700'000}, {}});
+    EXPECT_LT(compareColor(Renderer().render(here).frame, Renderer().render(there).frame).shareOff, 1e-4);
+    EXPECT_LT(test::differenceFromReference(there).shareOff, 0.005);
+    EXPECT_GT(coverOf(there).shown, 1000);
+}
+
 TEST_F(HardCases, EyeAtNineTenthsOfTheRadius) {
     const glm::dvec3 eye(1.8, 0.2, 0);
     expectLikeReference(coloured({{{{-5, -1, -5}, {6, -1.5f, -3}, {0, -0.5f, 7}}},
