@@ -116,7 +116,7 @@ void addRenderCommand(CLI::App& app) {
     render->add_option("--tolerance", command->tolerancePx, "Largest geometric error of piecewise, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
-    render->add_option("--samples", command->samples, "Rays a pixel (reference) or MSAA samples (piecewise)")
+    render->add_option("--samples", command->samples, "Samples a pixel of reference and piecewise")
         ->check(CLI::Range(1, kMostSamples))
         ->capture_default_str();
     render

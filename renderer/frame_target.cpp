@@ -1,25 +1,11 @@
 #include "renderer/frame_target.h"
 
-#include "calibration/errors.h"
 #include "renderer/image_file.h"
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <string>
 
 namespace curvewall {
-namespace {
-
-void requireSamples(int samples) {
-    GLint most = 1;
-    glGetIntegerv(GL_MAX_SAMPLES, &most);
-    if (samples > most)
-        throw UsageError("this OpenGL has at most " + std::to_string(most) + " samples a pixel, not " +
-                         std::to_string(samples));
-}
-
-}  // namespace
 
 GLenum internalFormatOf(TargetFormat format) {
     switch (format.output) {
@@ -36,7 +22,6 @@ GLenum internalFormatOf(TargetFormat format) {
 
 FrameTarget::FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples)
     : sizePx_(sizePx), format_(format), texture_(makeTexture2D(internalFormatOf(format), sizePx)) {
-    requireSamples(samples);
     depth_ = makeRenderbuffer(GL_DEPTH_COMPONENT32F, sizePx, samples);
     framebuffer_ = makeFramebuffer();
     glNamedFramebufferTexture(framebuffer_.id(), GL_COLOR_ATTACHMENT0, texture_.id(), 0);
@@ -51,11 +36,14 @@ FrameTarget::FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples)
     requireComplete(drawn, sizePx);
 }
 
-void FrameTarget::begin(glm::vec3 background) const {
-    const GLuint drawn = drawFramebuffer_ ? drawFramebuffer_.id() : framebuffer_.id();
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn);
+void FrameTarget::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, drawnInto().id());
     glViewport(0, 0, sizePx_.x, sizePx_.y);
-    clearTarget(drawn, format_.output, background);
+}
+
+void FrameTarget::begin(glm::vec3 background) const {
+    bind();
+    clearTarget(drawnInto().id(), format_.output, background);
     setSceneState(format_.output);
 }
 

@@ -26,6 +26,8 @@ public:
     // cannot.
     FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples);
 
+    // Makes it the framebuffer that is drawn into.
+    void bind() const;
     // Binds, clears to the background or to the output's "nothing", and sets the state for drawing a scene.
     void begin(glm::vec3 background) const;
     // Resolves the samples, where there are any.
@@ -38,6 +40,8 @@ public:
     const GlTexture& texture() const { return texture_; }
 
 private:
+    const GlFramebuffer& drawnInto() const { return drawFramebuffer_ ? drawFramebuffer_ : framebuffer_; }
+
     glm::ivec2 sizePx_;
     TargetFormat format_;
     GlTexture texture_;

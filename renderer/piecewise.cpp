@@ -25,8 +25,10 @@ PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pie
       programs_(*scene.scene, look, pathThrough(pieces, look.output)),
       emptyVertexArray_(makeVertexArray()) {}
 
-void PiecewiseRenderer::record(const SceneView& view) {
-    programs_.setFrame(view, pieces_.frontIsClockwise);
+void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
+    programs_.setFrame(view, pieces_.frontIsClockwise, 2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx));
+    for (const GlSampler& sampler : scene_.samplers)
+        glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     for (int i = 0; i < 8; ++i)
         (i < pieces_.clipPlanes ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
     if (owners_) glBindTextureUnit(1, owners_->id());

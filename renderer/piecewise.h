@@ -3,6 +3,7 @@
 // just the pieces that it touches, each piece a plain perspective projection.
 
 #include "renderer/coverage.h"
+#include "renderer/frame_pass.h"
 #include "renderer/scene_programs.h"
 
 #include <optional>
@@ -20,7 +21,7 @@ public:
                       const GlTexture* owners);
 
     // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
-    void record(const SceneView& view);
+    void record(const SceneView& view, const FramePass& pass = {});
 
     // Pairs of the frame just finished, or nothing when some found no room: then record it once more.
     // Call it after the GPU has finished.

@@ -4,12 +4,12 @@
 #include "calibration/piece_fit.h"
 #include "calibration/stopwatch.h"
 #include "renderer/cube_faces.h"
-#include "renderer/frame_target.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/image_based.h"
 #include "renderer/piecewise.h"
 #include "renderer/recently_used.h"
 #include "renderer/reference.h"
+#include "renderer/sampled_target.h"
 
 #include <glm/geometric.hpp>
 #include <sys/resource.h>
@@ -139,16 +139,15 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     });
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
-    const FrameTarget target(display.sizePx, {request.output, request.linearOutput}, samples);
+    const SampledTarget target(display.sizePx, {request.output, request.linearOutput}, samples);
     stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
         std::optional<uint64_t> pairs;
         while (!pairs) {
-            target.begin(request.wall->background);
-            renderer->record(view);
-            target.end();
+            target.draw(request.wall->background,
+                        [&](const FramePass& pass) { renderer->record(view, pass); });
             waitForGpu();
             pairs = renderer->finishFrame();
         }

@@ -68,12 +68,13 @@ ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
     return {program, variant.textured};
 }
 
-void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise) const {
+void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace) const {
     for (const auto& [variant, entry] : programs_) {
         const GLuint program = entry.program.id();
         glProgramUniformMatrix3fv(program, 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
         glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
         glProgramUniform1f(program, 9, kNearFraction);
+        glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
         if (entry.checksFacing) glProgramUniform1i(program, 12, frontIsClockwise);
     }
 }

@@ -37,7 +37,7 @@ public:
     Chosen choose(const Material& material) const;
 
     // Sets what is the same for all materials of a frame.
-    void setFrame(const SceneView& view, bool frontIsClockwise) const;
+    void setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace) const;
 
 private:
     struct Variant {

@@ -6,6 +6,8 @@
 
 layout(std430, binding = 2) readonly buffer Pieces { vec4 pieces[]; };  // three rows of H to clip space, then planes
 
+layout(location = 14) uniform vec2 shift;  // of the whole picture, clip space, for one sample of several
+
 layout(location = 9) uniform float nearFraction;  // depth = nearFraction / w, reversed
 
 #ifdef PAIRS
@@ -75,6 +77,7 @@ void main() {
 #endif
     gl_Position = vec4(dot(pieces[row].xyz, ray), dot(pieces[row + 1u].xyz, ray), nearFraction,
                        dot(pieces[row + 2u].xyz, ray));
+    gl_Position.xy += shift * gl_Position.w;
 #if CLIP_PLANES > 0
     for (uint i = 0u; i < uint(CLIP_PLANES); ++i) gl_ClipDistance[i] = dot(pieces[row + 3u + i].xyz, ray);
 #endif
