@@ -1,7 +1,5 @@
 #include "renderer/piecewise.h"
 
-#include <algorithm>
-
 namespace curvewall {
 namespace {
 
