@@ -49,11 +49,14 @@ public:
     }
 
 private:
+    [[noreturn]] void refuse() const {
+        throw UsageError("a tolerance of " + std::to_string(tolerancePx_) + " px needs more than " +
+                         std::to_string(kMostPieces) + " pieces");
+    }
+
     BalancedPieces at(double fineness) const {
         const glm::dvec2 cells = cellsAt(fineness);
-        if (!(2 * cells.x * cells.y <= kMostPieces))
-            throw UsageError("a tolerance of " + std::to_string(tolerancePx_) + " px needs more than " +
-                             std::to_string(kMostPieces) + " pieces");
+        if (!(2 * cells.x * cells.y <= kMostPieces)) refuse();
         return balanceFacets(
             projection_, profile_.grid(projection_, static_cast<int>(cells.x), static_cast<int>(cells.y)));
     }
@@ -64,10 +67,12 @@ private:
         return {count(profile_.columnsFor(tolerancePx_)), count(profile_.rowsFor(tolerancePx_))};
     }
 
+    // Where nothing bends no fineness gives more cells: what is wrong there, cells do not mend.
     double nextFiner(double fineness) const {
-        double next = fineness * 1.002;
-        while (cellsAt(next) == cellsAt(fineness)) next *= 1.002;
-        return next;
+        constexpr double kHopeless = 1e12;
+        for (double next = fineness * 1.002; next < kHopeless; next *= 1.002)
+            if (cellsAt(next) != cellsAt(fineness)) return next;
+        refuse();
     }
 
     // Columns and rows may grow at one fineness: then no grid lies between two that differ in both.
@@ -80,7 +85,7 @@ private:
     // halve it.
     double guess(double tried, double sampledMaxPx, double fails, double passes) const {
         const double expected = tried * std::sqrt(sampledMaxPx / tolerancePx_);
-        if (std::isinf(passes)) return std::clamp(expected, nextFiner(fails), 2 * fails);
+        if (std::isinf(passes)) return std::max(nextFiner(fails), std::min(expected, 2 * fails));
         const bool isNew = expected > fails && expected < passes && cellsAt(expected) != cellsAt(fails) &&
                            cellsAt(expected) != cellsAt(passes);
         return isNew ? expected : 0.5 * (fails + passes);

@@ -26,7 +26,8 @@ struct ScenePart {
     ScenePart(const SceneChunk& chunk, uint32_t firstTriangle, uint32_t triangleCount);
 };
 
-// The compute engine: three passes a part, no read-back within a frame. Buffers grow between frames only.
+// The compute engine: count, scan, emit and draw commands a part, no read-back within a frame. Buffers grow
+// between frames only.
 class Coverage {
 public:
     // `mostPairs` limits the pairs of a part below what the driver allows.

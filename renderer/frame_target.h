@@ -22,8 +22,7 @@ GLenum internalFormatOf(TargetFormat format);
 // Row 0 of the framebuffer is the picture's top row. Colour is blended, resolved and cleared in linear light.
 class FrameTarget {
 public:
-    // With samples > 1 the frame is drawn multisampled and resolved. Throws UsageError when the driver
-    // cannot.
+    // With samples > 1, at most as many as the driver has, the frame is drawn multisampled and resolved.
     FrameTarget(glm::ivec2 sizePx, TargetFormat format, int samples);
 
     // Makes it the framebuffer that is drawn into.

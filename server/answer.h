@@ -2,7 +2,6 @@
 // What a client asks and what it gets, free of sockets.
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>

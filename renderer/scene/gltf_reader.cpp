@@ -11,12 +11,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>

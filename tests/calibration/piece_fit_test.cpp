@@ -85,6 +85,15 @@ TEST(PieceFit, TolerancesThatNothingCanMeetAreRefused) {
     EXPECT_THROW(fit(wall, 1e-12), UsageError);
 }
 
+TEST(PieceFit, AFlatScreenAskedForLessThanRoundingIsRefusedOrMet) {
+    // More cells do not help a display that does not bend; the search has to end all the same.
+    const Wall wall = test::planarWall({160, 120}, 170);
+    try {
+        EXPECT_LE(fit(wall, 1e-15).certificate.maxPx, 1e-15);
+    } catch (const UsageError&) {
+    }
+}
+
 TEST(PieceFit, AWallSeenFromFarAboveKeepsItsQuads) {
     // The homographies of such facets are badly conditioned; that they are parallelograms is not in doubt.
     const Wall wall = test::fullCylinderWall({160, 120}, {0, 1000, 0});

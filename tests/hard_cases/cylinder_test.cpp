@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 namespace curvewall {
 namespace {

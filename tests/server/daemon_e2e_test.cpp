@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
-#include <atomic>
 #include <csignal>
 #include <fcntl.h>
 #include <map>
