@@ -24,6 +24,7 @@ public:
 
     std::optional<glm::dvec3> unproject(glm::dvec2 px) const override;
     std::vector<glm::dvec2> project(glm::dvec3 ray) const override;
+    ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
 private:
     CylinderWall wall_;

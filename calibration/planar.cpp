@@ -9,7 +9,8 @@
 
 namespace curvewall {
 
-PlanarProjection::PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, glm::ivec2 sizePx) {
+PlanarProjection::PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, glm::ivec2 sizePx)
+    : screen_(screen), sizePx_(sizePx) {
     const glm::dvec3 right = screen.lowerRightM - screen.lowerLeftM;
     const glm::dvec3 up = screen.upperLeftM - screen.lowerLeftM;
     const glm::dvec3 corner = screen.upperLeftM - eyeM;
@@ -31,6 +32,10 @@ std::vector<glm::dvec2> PlanarProjection::project(glm::dvec3 ray) const {
     const glm::dvec3 h = pixelFromRay_ * ray;
     if (!(h.z > 0)) return {};  // parallel to the screen or pointing away from it
     return {glm::dvec2(h) / h.z};
+}
+
+ProjectionPtr PlanarProjection::seenFrom(glm::dvec3 eyeM) const {
+    return std::make_shared<PlanarProjection>(screen_, eyeM, sizePx_);
 }
 
 }  // namespace curvewall

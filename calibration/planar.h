@@ -18,8 +18,11 @@ public:
 
     std::optional<glm::dvec3> unproject(glm::dvec2 px) const override;
     std::vector<glm::dvec2> project(glm::dvec3 ray) const override;
+    ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
 private:
+    PlanarScreen screen_;
+    glm::ivec2 sizePx_;
     glm::dmat3 rayFromPixel_;  // columns: one pixel right, one pixel down, the top left corner
     glm::dmat3 pixelFromRay_;
 };

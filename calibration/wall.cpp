@@ -6,6 +6,19 @@
 
 namespace curvewall {
 
+Wall seenFrom(const Wall& wall, glm::dvec3 eyeM) {
+    Wall moved = wall;
+    moved.eyeM = eyeM;
+    for (Display& display : moved.displays) {
+        try {
+            display.projection = display.projection->seenFrom(eyeM);
+        } catch (const UsageError& error) {
+            throw UsageError("display \"" + display.name + "\": " + error.what());
+        }
+    }
+    return moved;
+}
+
 const Display& findDisplay(const Wall& wall, std::string_view name) {
     if (name.empty()) return wall.displays.front();
     const auto found = std::ranges::find(wall.displays, name, &Display::name);

@@ -1,6 +1,7 @@
 #pragma once
 // One installation: its eye and its displays.
 
+#include "calibration/blend.h"
 #include "calibration/projection.h"
 
 #include <glm/vec2.hpp>
@@ -18,6 +19,7 @@ struct Display {
     glm::ivec2 sizePx{0};
     std::string projectionType;  // as the wall file writes it: "cylinder", "planar", ...
     ProjectionPtr projection;    // seen from the wall's eye
+    BlendMaps blend{};
 };
 
 struct Wall {
@@ -28,6 +30,9 @@ struct Wall {
 };
 
 using WallPtr = std::shared_ptr<const Wall>;
+
+// The wall for another eye, in wall coordinates. Throws UsageError where that eye cannot see a display.
+Wall seenFrom(const Wall& wall, glm::dvec3 eyeM);
 
 // The display of that name, or the first one when the name is empty. Throws UsageError that lists the names.
 const Display& findDisplay(const Wall& wall, std::string_view name);

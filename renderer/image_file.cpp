@@ -1,6 +1,7 @@
 #include "renderer/image_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/map_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -15,6 +16,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -22,8 +24,6 @@ namespace {
 constexpr int kJpegQuality = 95;
 // Three times as fast as zlib's default of 6, for files a few per cent larger.
 constexpr int kPngCompressionLevel = 4;
-// A damaged header must not make us ask for all memory there is. 16,384 x 16,384 passes.
-constexpr int64_t kMaxTexels = int64_t{1} << 28;
 
 double linearFromSrgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -158,27 +158,17 @@ void writeFrame(const std::string& path, const Frame& frame, OutputKind output) 
 }
 
 Frame readFrame(const std::string& path) {
-    const auto fail = [&path](const std::string& found) {
-        return InputError(path, "", "a readable image", found);
-    };
-    OIIO::ImageSpec options;
-    options.attribute("oiio:UnassociatedAlpha",
-                      1);  // or colour would come multiplied by an alpha we leave out
-    const auto in = OIIO::ImageInput::open(path, &options);
-    if (!in) throw fail(OIIO::geterror());
-    const OIIO::ImageSpec& spec = in->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 ||
-        int64_t{spec.width} * spec.height > kMaxTexels)
-        throw fail("one of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
-
-    Frame frame;
-    frame.sizePx = {spec.width, spec.height};
-    frame.channels = spec.nchannels >= 3 ? 3 : 1;
-    frame.texels.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
-                        static_cast<size_t>(frame.channels));
-    if (!in->read_image(0, 0, 0, frame.channels, OIIO::TypeDesc::FLOAT, frame.texels.data()))
-        throw fail(in->geterror());
-    if (!spec.format.is_floating_point())
+    NumberMap map = readNumberMap(path);
+    Frame frame{map.sizePx, map.channels >= 3 ? 3 : 1, {}};
+    if (frame.channels == map.channels) {
+        frame.texels = std::move(map.values);
+    } else {
+        frame.texels.reserve(map.values.size());
+        for (size_t i = 0; i < map.values.size(); ++i)
+            if (static_cast<int>(i % static_cast<size_t>(map.channels)) < frame.channels)
+                frame.texels.push_back(map.values[i]);
+    }
+    if (map.isInteger)
         for (float& texel : frame.texels) texel = static_cast<float>(linearFromSrgb(texel));
     return frame;
 }

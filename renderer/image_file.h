@@ -1,5 +1,5 @@
 #pragma once
-// Frames to and from image files and encoded bytes. The only place that knows OpenImageIO.
+// Frames to and from image files and encoded bytes, by OpenImageIO.
 
 #include "renderer/frame.h"
 #include "renderer/look.h"

@@ -26,6 +26,7 @@ public:
         if (ray.z >= 0) return {};
         return {centrePx_ + focalPx_ * glm::dvec2(ray.x, -ray.y) / -ray.z};
     }
+    ProjectionPtr seenFrom(glm::dvec3) const override { return std::make_shared<PinholeProjection>(*this); }
 
 private:
     glm::dvec2 centrePx_;
@@ -45,6 +46,7 @@ public:
         return px.y >= 0 && index < rays_.size() ? rays_[index] : std::nullopt;
     }
     std::vector<glm::dvec2> project(glm::dvec3) const override { return {}; }
+    ProjectionPtr seenFrom(glm::dvec3) const override { return std::make_shared<RayListProjection>(*this); }
 
 private:
     int widthPx_;

@@ -1,0 +1,18 @@
+#pragma once
+// What a display does to the finished picture where it overlaps its neighbours and where it is never black.
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace curvewall {
+
+// One value a channel and pixel, row by row from the top, in linear light; empty where there is no map.
+struct BlendMaps {
+    std::vector<glm::vec3> alpha;  // what remains of the picture
+    std::vector<glm::vec3> beta;   // the black level
+
+    bool empty() const { return alpha.empty() && beta.empty(); }
+};
+
+}  // namespace curvewall

@@ -1,0 +1,40 @@
+#include "calibration/map_file.h"
+
+#include "calibration/errors.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstdint>
+
+namespace curvewall {
+namespace {
+
+// A damaged header must not make us ask for all memory there is. 16,384 x 16,384 passes.
+constexpr int64_t kMaxTexels = int64_t{1} << 28;
+constexpr int kMaxChannels = 4;
+
+}  // namespace
+
+NumberMap readNumberMap(const std::string& path) {
+    const auto fail = [&path](const std::string& found) {
+        return InputError(path, "", "a readable image", found);
+    };
+    OIIO::ImageSpec options;
+    options.attribute("oiio:UnassociatedAlpha", 1);  // or colour would come multiplied by its alpha
+    const auto in = OIIO::ImageInput::open(path, &options);
+    if (!in) throw fail(OIIO::geterror());
+    const OIIO::ImageSpec& spec = in->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || int64_t{spec.width} * spec.height > kMaxTexels)
+        throw fail("one of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
+    if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
+        throw fail("one of " + std::to_string(spec.nchannels) + " channels");
+
+    NumberMap map{{spec.width, spec.height}, spec.nchannels, !spec.format.is_floating_point(), {}};
+    map.values.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
+                      static_cast<size_t>(spec.nchannels));
+    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, map.values.data()))
+        throw fail(in->geterror());
+    return map;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,27 @@
+#pragma once
+// Files of numbers in the shape of a picture: offset grids, surface points, masks.
+
+#include <glm/vec2.hpp>
+
+#include <string>
+#include <vector>
+
+namespace curvewall {
+
+struct NumberMap {
+    glm::ivec2 sizePx{0};
+    int channels = 0;
+    bool isInteger = false;     // the file holds 8 or 16-bit integers; they come as fractions of the largest
+    std::vector<float> values;  // row 0 is the top row; channels are interleaved
+
+    const float* at(int x, int y) const {
+        return &values[(static_cast<size_t>(y) * static_cast<size_t>(sizePx.x) + static_cast<size_t>(x)) *
+                       static_cast<size_t>(channels)];
+    }
+};
+
+// Every format that OpenImageIO reads. Numbers are not touched: no transfer function, no alpha multiplied in.
+// Throws InputError.
+NumberMap readNumberMap(const std::string& path);
+
+}  // namespace curvewall

@@ -1,0 +1,26 @@
+#pragma once
+// Projections as wall files write them, by the `type` of their object.
+
+#include "calibration/json_fields.h"
+#include "calibration/projection.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace curvewall {
+
+// What a projection has from outside its own object.
+struct ProjectionContext {
+    std::filesystem::path folder;  // of the wall file: paths are relative to it
+    glm::dvec3 eyeM{0};            // wall coordinates
+    glm::ivec2 sizePx{0};          // of the display
+};
+
+// Reads the keys of `type` and leaves unknown ones to the caller. Throws FieldError, InputError for a file
+// that the object names, and UsageError for a display that the eye cannot see.
+ProjectionPtr readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context);
+
+}  // namespace curvewall
