@@ -45,8 +45,9 @@ void certify(benchmark::State& state) {
     const Wall wall = test::fullCylinderWall(kSizePx);
     const FittedPieces fitted = fitPieces(*wall.displays[0].projection, kSizePx, 0.25);
     for (auto _ : state) {
+        const RayImage rays(*wall.displays[0].projection, kSizePx);
         const auto owners = ownerImage(fitted.mesh);
-        const auto errors = pieceErrorsPx(*wall.displays[0].projection, fitted.mesh, owners);
+        const auto errors = pieceErrorsPx(rays, fitted.mesh, owners);
         benchmark::DoNotOptimize(certificateOf(errors, owners, kSizePx));
     }
     reportPieces(state, fitted);

@@ -11,22 +11,20 @@
 
 namespace curvewall {
 
-std::vector<float> pieceErrorsPx(const Projection& projection, const PieceMesh& mesh,
+std::vector<float> pieceErrorsPx(const RayImage& rays, const PieceMesh& mesh,
                                  const std::vector<int32_t>& owners) {
-    std::vector<float> errors(owners.size());
+    std::vector<float> errors(owners.size(), std::numeric_limits<float>::infinity());
     parallelRanges(mesh.sizePx.y, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < mesh.sizePx.x; ++x) {
-                const size_t i =
-                    static_cast<size_t>(y) * static_cast<size_t>(mesh.sizePx.x) + static_cast<size_t>(x);
-                const glm::dvec2 centre(x + 0.5, y + 0.5);
-                const auto ray = projection.unproject(centre);
-                errors[i] = std::numeric_limits<float>::infinity();
-                if (!ray) {
+                const size_t i = rays.indexOf({x, y});
+                if (!rays.has({x, y})) {
                     errors[i] = std::numeric_limits<float>::quiet_NaN();
                 } else if (owners[i] != kNoPiece) {
-                    const glm::dvec3 h = mesh.pieces[static_cast<size_t>(owners[i])].screenFromRay * *ray;
-                    if (h.z > 0) errors[i] = static_cast<float>(glm::length(glm::dvec2(h) / h.z - centre));
+                    const Piece& piece = mesh.pieces[static_cast<size_t>(owners[i])];
+                    const glm::dvec3 h = piece.screenFromRay * rays.at({x, y});
+                    if (h.z > 0)
+                        errors[i] = static_cast<float>(glm::length(glm::dvec2(h) / h.z - centreOf({x, y})));
                 }
             }
         }

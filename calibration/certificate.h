@@ -2,7 +2,7 @@
 // The geometric error of a piece mesh, measured at every pixel centre by the piece that owns it.
 
 #include "calibration/piece_mesh.h"
-#include "calibration/projection.h"
+#include "calibration/ray_image.h"
 
 #include <glm/vec2.hpp>
 
@@ -20,9 +20,9 @@ struct Certificate {
     int holes = 0;            // without a ray
 };
 
-// |H_k unproject(p) - p| at every pixel centre p, k being its owner; row by row from the top. NaN in holes,
+// |H_k r(p) - p| at every pixel centre p, k being its owner; row by row from the top. NaN in holes,
 // infinity where a pixel with a ray has no piece or its ray points away from the piece.
-std::vector<float> pieceErrorsPx(const Projection& projection, const PieceMesh& mesh,
+std::vector<float> pieceErrorsPx(const RayImage& rays, const PieceMesh& mesh,
                                  const std::vector<int32_t>& owners);
 
 // Pixels without a piece are counted and left out of the three figures.

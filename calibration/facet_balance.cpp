@@ -7,53 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <span>
 
 namespace curvewall {
 namespace {
 
-constexpr int kLattice = 4;  // samples per piece edge, less one
 constexpr int kIterations = 24;
 constexpr int kPatience = 4;         // steps without progress before the fit ends
 constexpr double kProgress = 0.995;  // what the maximum must fall below, of the best so far
-
-// A screen position inside a piece, as a blend of its vertices, with the ray that the display shows there.
-struct Sample {
-    size_t piece;
-    std::array<double, 4> blend;
-    glm::dvec2 px;
-    glm::dvec3 ray;
-    double weight;
-};
-
-std::vector<std::array<double, 4>> latticeBlends(uint32_t vertexCount) {
-    std::vector<std::array<double, 4>> blends;
-    for (int i = 0; i <= kLattice; ++i) {
-        for (int j = 0; j <= (vertexCount == 3 ? kLattice - i : kLattice); ++j) {
-            const double u = double(i) / kLattice, v = double(j) / kLattice;
-            if (vertexCount == 3)
-                blends.push_back({1 - u - v, u, v, 0});
-            else
-                blends.push_back({(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v});
-        }
-    }
-    return blends;
-}
-
-std::vector<Sample> samplesOf(const Projection& projection, const PieceMesh& mesh) {
-    std::vector<Sample> samples;
-    for (size_t k = 0; k < mesh.pieces.size(); ++k) {
-        const Piece& piece = mesh.pieces[k];
-        for (const auto& blend : latticeBlends(piece.vertexCount)) {
-            glm::dvec2 px(0);
-            for (uint32_t i = 0; i < piece.vertexCount; ++i)
-                px += blend[i] * mesh.vertices[piece.vertices[i]].s;
-            if (const auto ray = projection.unproject(px)) samples.push_back({k, blend, px, *ray, 1});
-        }
-    }
-    return samples;
-}
+constexpr int kHalvings = 6;         // of a step that would turn a facet over
 
 struct Landing {
     glm::dvec2 errorPx;
@@ -61,7 +24,7 @@ struct Landing {
 };
 
 // Infinite error where the ray points away from the facet.
-Landing land(const glm::dmat3& h, const Sample& sample) {
+Landing land(const glm::dmat3& h, const FacetSample& sample) {
     const glm::dvec3 seen = h * sample.ray;
     if (!(seen.z > 0)) return {glm::dvec2(std::numeric_limits<double>::infinity()), glm::dmat3x2(0)};
     const glm::dvec2 px = glm::dvec2(seen) / seen.z;
@@ -70,109 +33,83 @@ Landing land(const glm::dmat3& h, const Sample& sample) {
     return {px - sample.px, pxPerM};
 }
 
-bool facesTheEye(const PieceMesh& mesh) {
-    bool positive = false, negative = false;
-    for (const Piece& piece : mesh.pieces) {
-        const auto m = [&](uint32_t i) { return mesh.vertices[piece.vertices[i]].m; };
-        const double det = glm::determinant(glm::dmat3(m(0), m(1), m(2)));
-        positive |= det > 0;
-        negative |= det < 0;
-        if (det == 0) return false;
-    }
-    return positive != negative;
+std::vector<double> landingErrorsPx(const PieceMesh& mesh, const std::vector<FacetSample>& samples) {
+    std::vector<double> errors;
+    errors.reserve(samples.size());
+    for (const FacetSample& sample : samples)
+        errors.push_back(glm::length(land(mesh.pieces[sample.piece].screenFromRay, sample).errorPx));
+    return errors;
 }
 
-// The unknowns that move a vertex: its own point, or for a grid of exact quads the u of its column and the v
-// of its row. Each is three numbers.
-class Motion {
-public:
-    Motion(const PieceGrid& grid, bool keepsQuads)
-        : columns_(static_cast<size_t>(grid.columns) + 1),
-          rows_(static_cast<size_t>(grid.rows) + 1),
-          keepsQuads_(keepsQuads) {}
-
-    size_t blockCount() const { return keepsQuads_ ? columns_ + rows_ : columns_ * rows_; }
-    std::vector<size_t> blocksOf(size_t vertex) const {
-        if (!keepsQuads_) return {vertex};
-        return {vertex % columns_, columns_ + vertex / columns_};
-    }
-
-private:
-    size_t columns_, rows_;
-    bool keepsQuads_;
-};
-
-// The normal equations of one weighted Gauss-Newton step.
+// The normal equations of one weighted Gauss-Newton step, lower triangle.
 class NormalEquations {
 public:
-    explicit NormalEquations(size_t blockCount) : right_(Eigen::VectorXd::Zero(sizeOf(blockCount))) {}
+    explicit NormalEquations(size_t unknowns) : right_(Eigen::VectorXd::Zero(3 * Eigen::Index(unknowns))) {}
 
     // Adds the samples of one piece.
-    void addPiece(const PieceMesh& mesh, const Motion& motion, std::span<const Sample> samples) {
+    void addPiece(const PieceMesh& mesh, const Motion& motion, std::span<const FacetSample> samples,
+                  std::span<const double> weights) {
         const Piece& piece = mesh.pieces[samples.front().piece];
-        std::vector<size_t> blocks;
-        for (uint32_t i = 0; i < piece.vertexCount; ++i)
-            for (size_t block : motion.blocksOf(piece.vertices[i]))
-                if (std::ranges::find(blocks, block) == blocks.end()) blocks.push_back(block);
-
-        const Eigen::Index size = sizeOf(blocks.size());
-        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
-        for (const Sample& sample : samples) {
-            const Landing landing = land(piece.screenFromRay, sample);
-            Eigen::Matrix<double, 2, Eigen::Dynamic> jacobian = Eigen::MatrixXd::Zero(2, size);
-            for (uint32_t i = 0; i < piece.vertexCount; ++i) {
-                for (size_t block : motion.blocksOf(piece.vertices[i])) {
-                    const auto column =
-                        sizeOf(static_cast<size_t>(std::ranges::find(blocks, block) - blocks.begin()));
-                    for (int c = 0; c < 3; ++c)
-                        for (int axis = 0; axis < 2; ++axis)
-                            jacobian(axis, column + c) += sample.blend[i] * landing.pxPerM[c][axis];
-                }
+        std::array<std::array<Eigen::Matrix3d, 4>, 4> normal;
+        std::array<Eigen::Vector3d, 4> right;
+        for (auto& row : normal) row.fill(Eigen::Matrix3d::Zero());
+        right.fill(Eigen::Vector3d::Zero());
+        for (size_t k = 0; k < samples.size(); ++k) {
+            const Landing landing = land(piece.screenFromRay, samples[k]);
+            Eigen::Matrix<double, 2, 3> jacobian;
+            for (int c = 0; c < 3; ++c)
+                jacobian.col(c) = Eigen::Vector2d(landing.pxPerM[c].x, landing.pxPerM[c].y);
+            const Eigen::Matrix3d squared = weights[k] * jacobian.transpose() * jacobian;
+            const Eigen::Vector3d pull =
+                weights[k] * jacobian.transpose() * Eigen::Vector2d(landing.errorPx.x, landing.errorPx.y);
+            for (size_t i = 0; i < piece.vertexCount; ++i) {
+                right[i] += samples[k].blend[i] * pull;
+                for (size_t j = 0; j < piece.vertexCount; ++j)
+                    normal[i][j] += samples[k].blend[i] * samples[k].blend[j] * squared;
             }
-            normal += sample.weight * jacobian.transpose() * jacobian;
-            right +=
-                sample.weight * jacobian.transpose() * Eigen::Vector2d(landing.errorPx.x, landing.errorPx.y);
         }
-        scatter(blocks, normal, right);
+        for (size_t i = 0; i < piece.vertexCount; ++i) {
+            for (const Motion::Term& a : motion.termsOf(piece.vertices[i])) {
+                right_.segment<3>(3 * Eigen::Index(a.unknown)) += a.weight * right[i];
+                for (size_t j = 0; j < piece.vertexCount; ++j)
+                    for (const Motion::Term& b : motion.termsOf(piece.vertices[j]))
+                        if (a.unknown >= b.unknown)
+                            scatter(a.unknown, b.unknown, a.weight * b.weight * normal[i][j]);
+            }
+        }
     }
 
     // The movement of every unknown.
     Eigen::VectorXd solve() {
         Eigen::SparseMatrix<double> normal(right_.size(), right_.size());
         normal.setFromTriplets(entries_.begin(), entries_.end());
-        // Some motions change nothing on the screen; a trace of damping picks one answer.
-        const double damping = 1e-9 * normal.diagonal().maxCoeff();
+        // Some motions change nothing on the screen and others next to nothing, which would grow and hide
+        // what they cost to second order; damping keeps them small.
+        const double damping = 1e-4 * normal.diagonal().maxCoeff();
         for (Eigen::Index i = 0; i < right_.size(); ++i) normal.coeffRef(i, i) += damping;
         return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(right_);
     }
 
 private:
-    static Eigen::Index sizeOf(size_t blocks) { return static_cast<Eigen::Index>(3 * blocks); }
-
-    void scatter(const std::vector<size_t>& blocks, const Eigen::MatrixXd& normal,
-                 const Eigen::VectorXd& right) {
-        const auto global = [&](Eigen::Index i) {
-            return sizeOf(blocks[static_cast<size_t>(i / 3)]) + i % 3;
-        };
-        for (Eigen::Index i = 0; i < right.size(); ++i) {
-            right_[global(i)] += right[i];
-            for (Eigen::Index j = 0; j < right.size(); ++j)
-                entries_.emplace_back(static_cast<int>(global(i)), static_cast<int>(global(j)), normal(i, j));
-        }
+    void scatter(uint32_t row, uint32_t column, const Eigen::Matrix3d& block) {
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < (row == column ? i + 1 : 3); ++j)
+                entries_.emplace_back(static_cast<int>(3 * row) + i, static_cast<int>(3 * column) + j,
+                                      block(i, j));
     }
 
     Eigen::VectorXd right_;
     std::vector<Eigen::Triplet<double>> entries_;
 };
 
-Eigen::VectorXd solveStep(const PieceMesh& mesh, const std::vector<Sample>& samples, const Motion& motion) {
-    NormalEquations equations(motion.blockCount());
-    // Samples come piece by piece.
-    for (auto begin = samples.begin(); begin != samples.end();) {
-        const auto end =
-            std::find_if(begin, samples.end(), [&](const Sample& s) { return s.piece != begin->piece; });
-        equations.addPiece(mesh, motion, {begin, end});
+Eigen::VectorXd solveStep(const PieceMesh& mesh, const Motion& motion, std::span<const FacetSample> samples,
+                          std::span<const double> weights) {
+    NormalEquations equations(motion.unknownCount());
+    for (size_t begin = 0; begin < samples.size();) {
+        size_t end = begin;
+        while (end < samples.size() && samples[end].piece == samples[begin].piece) ++end;
+        equations.addPiece(mesh, motion, samples.subspan(begin, end - begin),
+                           weights.subspan(begin, end - begin));
         begin = end;
     }
     return equations.solve();
@@ -184,50 +121,101 @@ double summedDistanceM(const std::vector<PieceVertex>& vertices) {
     return sum;
 }
 
+// A vertex may move by a part of its shortest edge at a time, so that one with few samples, which the normal
+// equations hardly hold, does not turn its facets over.
+void limitStep(Eigen::VectorXd& step, const PieceMesh& mesh, const Motion& motion) {
+    constexpr double kLargestPart = 0.25;
+    std::vector<double> limits(motion.unknownCount(), std::numeric_limits<double>::infinity());
+    for (const Piece& piece : mesh.pieces) {
+        for (uint32_t i = 0; i < piece.vertexCount; ++i) {
+            const uint32_t a = piece.vertices[i], b = piece.vertices[(i + 1) % piece.vertexCount];
+            const double limit = kLargestPart * glm::distance(mesh.vertices[a].m, mesh.vertices[b].m);
+            for (uint32_t vertex : {a, b})
+                for (const Motion::Term& term : motion.termsOf(vertex))
+                    limits[term.unknown] = std::min(limits[term.unknown], limit);
+        }
+    }
+    for (size_t i = 0; i < limits.size(); ++i) {
+        auto part = step.segment<3>(3 * static_cast<Eigen::Index>(i));
+        if (const double length = part.norm(); length > limits[i]) part *= limits[i] / length;
+    }
+}
+
 // Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets
 // stay as far from the eye as the wall, for depth is measured by them.
-void moveVertices(std::vector<PieceVertex>& vertices, const Motion& motion, const Eigen::VectorXd& step) {
-    const double distanceM = summedDistanceM(vertices);
-    for (size_t v = 0; v < vertices.size(); ++v)
-        for (size_t block : motion.blocksOf(v))
-            for (int c = 0; c < 3; ++c) vertices[v].m[c] += step[static_cast<Eigen::Index>(3 * block) + c];
-    const double scale = distanceM / summedDistanceM(vertices);
-    for (PieceVertex& vertex : vertices) vertex.m *= scale;
+PieceMesh moved(PieceMesh mesh, const Motion& motion, const Eigen::VectorXd& step, double length) {
+    const double distanceM = summedDistanceM(mesh.vertices);
+    for (size_t v = 0; v < mesh.vertices.size(); ++v)
+        for (const Motion::Term& term : motion.termsOf(v))
+            for (int c = 0; c < 3; ++c)
+                mesh.vertices[v].m[c] += length * term.weight * step[3 * Eigen::Index(term.unknown) + c];
+    const double scale = distanceM / summedDistanceM(mesh.vertices);
+    for (PieceVertex& vertex : mesh.vertices) vertex.m *= scale;
+    updateHomographies(mesh);
+    return mesh;
+}
+
+// The sign of det[m], by which a facet turns one side to the eye or the other.
+int sideOf(const PieceMesh& mesh, const Piece& piece) {
+    const auto m = [&](uint32_t i) { return mesh.vertices[piece.vertices[i]].m; };
+    const double det = glm::determinant(glm::dmat3(m(0), m(1), m(2)));
+    return (det > 0) - (det < 0);
+}
+
+bool sameSides(const PieceMesh& a, const PieceMesh& b) {
+    for (size_t k = 0; k < a.pieces.size(); ++k)
+        if (sideOf(a, a.pieces[k]) != sideOf(b, b.pieces[k])) return false;
+    return true;
 }
 
 // Lawson: a sample's weight grows with its error, so the fit turns towards the worst ones.
-double reweight(const PieceMesh& mesh, std::vector<Sample>& samples) {
-    double worst = 0, total = 0;
-    for (Sample& sample : samples) {
-        const double error = glm::length(land(mesh.pieces[sample.piece].screenFromRay, sample).errorPx);
-        worst = std::max(worst, error);
-        sample.weight *= error;
-        total += sample.weight;
-    }
-    for (Sample& sample : samples)
-        sample.weight *= static_cast<double>(samples.size()) / std::max(total, 1e-300);
-    return worst;
+void reweight(std::vector<double>& weights, const std::vector<double>& errors) {
+    double total = 0;
+    for (size_t i = 0; i < weights.size(); ++i) total += weights[i] *= errors[i];
+    for (double& weight : weights) weight *= static_cast<double>(weights.size()) / std::max(total, 1e-300);
+}
+
+// Facets that are edge-on or turned away to begin with cannot be fitted; the rest can.
+std::vector<FacetSample> usableSamples(const PieceMesh& mesh, const std::vector<FacetSample>& samples) {
+    std::vector<bool> unusable(mesh.pieces.size());
+    for (const FacetSample& sample : samples)
+        if (!std::isfinite(glm::length(land(mesh.pieces[sample.piece].screenFromRay, sample).errorPx)))
+            unusable[sample.piece] = true;
+    std::vector<FacetSample> usable;
+    std::ranges::copy_if(samples, std::back_inserter(usable),
+                         [&](const FacetSample& sample) { return !unusable[sample.piece]; });
+    return usable;
 }
 
 }  // namespace
 
-BalancedPieces balanceFacets(const Projection& projection, PieceGrid grid) {
-    const bool quads = isQuadGrid(grid);
-    const Motion motion(grid, quads);
-    PieceMesh mesh = meshFromGrid(grid, quads);
-    std::vector<Sample> samples = samplesOf(projection, mesh);
+void Motion::addVertex(std::span<const Term> terms) {
+    terms_.insert(terms_.end(), terms.begin(), terms.end());
+    starts_.push_back(terms_.size());
+    for (const Term& term : terms) unknownCount_ = std::max(unknownCount_, size_t{term.unknown} + 1);
+}
 
+BalancedPieces balanceFacets(PieceMesh mesh, const Motion& motion, const std::vector<FacetSample>& all,
+                             double goodEnoughPx) {
+    const std::vector<FacetSample> samples = usableSamples(mesh, all);
     BalancedPieces best{mesh, std::numeric_limits<double>::infinity()};
+    std::vector<double> weights(samples.size(), 1);
     for (int i = 0, idle = 0; i < kIterations && idle < kPatience; ++i) {
-        std::vector<Sample> weighted = samples;
-        const double worst = reweight(mesh, weighted);
-        if (!facesTheEye(mesh) || !std::isfinite(worst)) break;
+        const std::vector<double> errors = landingErrorsPx(mesh, samples);
+        const double worst = errors.empty() ? 0 : std::ranges::max(errors);
+        if (!std::isfinite(worst)) break;
         idle = worst < kProgress * best.sampledMaxPx ? 0 : idle + 1;
         if (worst < best.sampledMaxPx) best = {mesh, worst};
-        if (worst < 1e-9) break;
-        if (i > 0) samples = std::move(weighted);  // the first step is the plain least squares fit
-        moveVertices(grid.vertices, motion, solveStep(mesh, samples, motion));
-        mesh = meshFromGrid(grid, quads);
+        if (worst <= std::max(goodEnoughPx, 1e-9)) break;
+        if (i > 0) reweight(weights, errors);  // the first step is the plain least squares fit
+        Eigen::VectorXd step = solveStep(mesh, motion, samples, weights);
+        if (!step.allFinite()) break;
+        limitStep(step, mesh, motion);
+        PieceMesh next = moved(mesh, motion, step, 1);
+        for (int halving = 1; halving <= kHalvings && !sameSides(mesh, next); ++halving)
+            next = moved(mesh, motion, step, std::ldexp(1.0, -halving));
+        if (!sameSides(mesh, next)) break;
+        mesh = std::move(next);
     }
     return best;
 }

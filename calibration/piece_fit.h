@@ -14,9 +14,13 @@ struct FittedPieces {
     double certifyMs = 0;
 };
 
-// The fewest columns and rows, balanced, whose certified maximum is at most `tolerancePx`. Throws UsageError
-// when that would take more than kMostPieces.
 inline constexpr int kMostPieces = 200'000;
+
+// Few pieces whose certified maximum is at most `tolerancePx`. Throws UsageError when that would take more
+// than kMostPieces, or when no pixel of the display has a ray.
 FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx);
+
+// Throws the UsageError of a tolerance that takes too many pieces.
+[[noreturn]] void refuseTolerance(double tolerancePx);
 
 }  // namespace curvewall

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace curvewall {
 namespace {
@@ -12,7 +13,8 @@ constexpr int kSteps = 128;  // along the direction that is cut
 constexpr int kLines = 33;   // across it, both borders included
 
 PieceVertex vertexOnSurface(const Projection& projection, glm::dvec2 px) {
-    return {projection.unproject(px).value(), px};
+    // A hole between the pixels that were looked at: the error is unknown there and the certificate decides.
+    return {projection.unproject(px).value_or(glm::dvec3(std::numeric_limits<double>::quiet_NaN())), px};
 }
 
 // How far a chord from `from` to `to` is off half way, in pixels: the error of the narrow facet that has the
@@ -21,7 +23,7 @@ double chordErrorPx(const Projection& projection, glm::dvec2 from, glm::dvec2 to
     const glm::dmat3 h = homographyThrough(vertexOnSurface(projection, from), vertexOnSurface(projection, to),
                                            vertexOnSurface(projection, from + aside));
     const glm::dvec2 middle = 0.5 * (from + to);
-    const glm::dvec3 seen = h * projection.unproject(middle).value();
+    const glm::dvec3 seen = h * vertexOnSurface(projection, middle).m;
     return glm::length(glm::dvec2(seen) / seen.z - middle);
 }
 

@@ -36,6 +36,13 @@ glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const P
            glm::inverse(glm::dmat3(a.m, b.m, c.m));
 }
 
+void updateHomographies(PieceMesh& mesh) {
+    for (Piece& piece : mesh.pieces) {
+        const auto vertex = [&](uint32_t i) { return mesh.vertices[piece.vertices[i]]; };
+        piece.screenFromRay = homographyThrough(vertex(0), vertex(1), vertex(2));
+    }
+}
+
 bool isExactQuad(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c, const PieceVertex& d) {
     const double largestM =
         std::max({glm::length(a.m), glm::length(b.m), glm::length(c.m), glm::length(d.m)});
@@ -70,8 +77,6 @@ PieceMesh meshFromGrid(const PieceGrid& grid, bool quads) {
     const auto addPiece = [&](std::initializer_list<uint32_t> corners) {
         Piece piece;
         for (uint32_t corner : corners) piece.vertices[piece.vertexCount++] = corner;
-        const auto vertex = [&](uint32_t i) { return mesh.vertices[piece.vertices[i]]; };
-        piece.screenFromRay = homographyThrough(vertex(0), vertex(1), vertex(2));
         mesh.pieces.push_back(piece);
     };
     for (int row = 0; row < grid.rows; ++row) {
@@ -85,6 +90,7 @@ PieceMesh meshFromGrid(const PieceGrid& grid, bool quads) {
             }
         }
     }
+    updateHomographies(mesh);
     return mesh;
 }
 

@@ -47,6 +47,9 @@ glm::dvec2 snapToGrid(glm::dvec2 px);
 // H of the facet through three vertices.
 glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c);
 
+// H of every piece, from its vertices.
+void updateHomographies(PieceMesh& mesh);
+
 // True when four vertices, in order around a cell, are corners of parallelograms in space and on the screen,
 // to rounding: then they lie in one plane and map by one affine map.
 bool isExactQuad(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c, const PieceVertex& d);

@@ -34,7 +34,8 @@ TEST(Certificate, InscribedSlicesErrAsTheirSagittaSays) {
         const PieceMesh mesh = inscribedSlices(*wall.displays[0].projection, sizePx, count);
         ASSERT_EQ(mesh.pieces.size(), static_cast<size_t>(count)) << "slices are exact quads";
         const std::vector<int32_t> owners = ownerImage(mesh);
-        const auto errors = pieceErrorsPx(*wall.displays[0].projection, mesh, owners);
+        const auto errors =
+            pieceErrorsPx(RayImage(*wall.displays[0].projection, wall.displays[0].sizePx), mesh, owners);
         const Certificate certificate = certificateOf(errors, owners, sizePx);
         EXPECT_NEAR(certificate.maxPx, 599.5 * (1 - std::cos(kPi / count)), 5e-3 * certificate.maxPx);
         EXPECT_TRUE(certificate.maxAt.y == 0 || certificate.maxAt.y == 1199);
@@ -62,7 +63,8 @@ TEST(Certificate, AFacetThatTurnsItsBackIsInfinitelyWrong) {
     PieceMesh mesh = inscribedSlices(*wall.displays[0].projection, sizePx, 1);
     for (Piece& piece : mesh.pieces) piece.screenFromRay = -piece.screenFromRay;
     const std::vector<int32_t> owners = ownerImage(mesh);
-    const auto errors = pieceErrorsPx(*wall.displays[0].projection, mesh, owners);
+    const auto errors =
+        pieceErrorsPx(RayImage(*wall.displays[0].projection, wall.displays[0].sizePx), mesh, owners);
     EXPECT_TRUE(std::isinf(certificateOf(errors, owners, sizePx).maxPx));
 }
 
