@@ -1,5 +1,5 @@
-// Round lenses: what lies `angle` off the axis lands `radius` from the centre of the picture, in focal lengths.
-// The axis is -z.
+// Round lenses: what lies `angle` off the axis lands `radius` from the centre of the picture, in focal
+// lengths. The axis is -z.
 
 const int kOrthographic = 0;
 const int kStereographic = 1;
@@ -51,11 +51,14 @@ SHARED_FN real radialRadius(int model, const real c[kRadialTerms], real angle) {
     return polynomialRadius(c, angle);
 }
 
+// GLSL promises little of asin, and drivers are off by 1e-3 near 1; nothing beyond 1.
+SHARED_FN real arcSine(real s) { return atan(s, sqrt(max((1.0 - s) * (1.0 + s), 0.0))); }
+
 // The inverse up to the angle `most`.
 SHARED_FN real radialAngle(int model, const real c[kRadialTerms], real radius, real most) {
-    if (model == kOrthographic) return asin(min(radius, 1.0));
+    if (model == kOrthographic) return arcSine(radius);
     if (model == kStereographic) return 2.0 * atan(0.5 * radius);
-    if (model == kEquisolid) return 2.0 * asin(min(0.5 * radius, 1.0));
+    if (model == kEquisolid) return 2.0 * arcSine(0.5 * radius);
     if (model == kEquidistant) return radius;
     return polynomialAngle(c, radius, most);
 }
