@@ -207,13 +207,14 @@ TEST_F(ProjectionShaders, RadialBothWays) {
          {Model{maths::kOrthographic, kPi / 2, kWithAtan}, Model{maths::kStereographic, 2.8, 5e-5},
           Model{maths::kEquisolid, kPi, kWithAtan}, Model{maths::kEquidistant, kPi, kWithAtan},
           Model{maths::kPolynomial, 2.0, kWithAtan}}) {
-        const std::string number = std::to_string(model);
+        const std::string withModel = coefficients + "const int model = " + std::to_string(model) +
+                                      "; const float most = " + std::to_string(mostRad) + ";";
         const auto inside = [mostRad = mostRad](test::Random& random) {
             const double t = random.uniform(0, 0.999 * mostRad), phi = random.uniform(-kPi, kPi);
             return glm::vec4(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), -std::cos(t), 0);
         };
         EXPECT_LT(difference(
-                      coefficients + "return vec4(radialPosition(" + number + ", c, v.xyz), 0.0, 0.0);",
+                      withModel + "return vec4(radialPosition(model, c, v.xyz), 0.0, 0.0);",
                       [&, model = model](glm::dvec4 v) {
                           return glm::dvec4(maths::radialPosition(model, doubles.data(), v), 0, 0);
                       },
@@ -227,8 +228,7 @@ TEST_F(ProjectionShaders, RadialBothWays) {
             return glm::vec4(r * std::cos(phi), r * std::sin(phi), 0, 0);
         };
         EXPECT_LT(difference(
-                      coefficients + "return vec4(radialDirection(" + number + ", c, v.xy, " +
-                          std::to_string(mostRad) + "), 0.0);",
+                      withModel + "return vec4(radialDirection(model, c, v.xy, most), 0.0);",
                       [&, model = model, mostRad = mostRad](glm::dvec4 v) {
                           return glm::dvec4(maths::radialDirection(model, doubles.data(), v, mostRad), 0);
                       },
