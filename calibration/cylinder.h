@@ -2,6 +2,7 @@
 // A cylindrical wall seen from anywhere inside it. Column x is linear in angle, row y linear in height.
 // Source: the horizontal cylinder of Lorenz and Doellner (2009), section 3.1, here for any eye.
 
+#include "calibration/angle_axis.h"
 #include "calibration/pose.h"
 #include "calibration/projection.h"
 
@@ -11,7 +12,7 @@ namespace curvewall {
 
 struct CylinderWall {
     double radiusM = 1;
-    double arcRad = 0;  // up to and including a full turn
+    double arcRad = 0;  // may be a full turn or more
     double heightM = 1;
     glm::dvec3 centerM{0};    // the middle of the axis, wall coordinates
     Orientation orientation;  // at zero the middle column looks along -z and the axis is y
@@ -29,6 +30,7 @@ public:
 private:
     CylinderWall wall_;
     glm::dvec2 sizePx_;
+    AngleAxis columns_;
     glm::dmat3 worldFromCylinder_;
     glm::dvec3 eyeInCylinderM_;
 };

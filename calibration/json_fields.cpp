@@ -47,14 +47,19 @@ private:
 };
 
 std::string formatted(Range range) {
+    const bool closed = !range.aboveMin && !range.belowMax;
     return (range.aboveMin ? " above " : " from ") + formatted(range.min) +
-           (range.aboveMin ? ", at most " : " to ") + formatted(range.max);
+           (closed           ? " to "
+            : range.belowMax ? ", below "
+                             : ", at most ") +
+           formatted(range.max);
 }
 
 double checkedNumber(const json& value, const std::string& field, Range range) {
     if (!value.is_number()) throw FieldError(FieldError::Kind::shape, field, "a number", describe(value));
     const double number = value.get<double>();
-    if (!(number >= range.min && number <= range.max) || (range.aboveMin && number == range.min))
+    if (!(number >= range.min && number <= range.max) || (range.aboveMin && number == range.min) ||
+        (range.belowMax && number == range.max))
         throw FieldError(FieldError::Kind::value, field, "a number" + formatted(range), describe(value));
     return number;
 }
@@ -69,6 +74,16 @@ int64_t checkedWholeNumber(const json& value, const std::string& field, int64_t 
                          "a whole number from " + std::to_string(min) + " to " + std::to_string(max),
                          describe(value));
     return value.get<int64_t>();
+}
+
+// "0, 4 or 5"
+std::string listed(std::initializer_list<size_t> counts) {
+    std::string text;
+    for (const size_t& count : counts) {
+        if (&count != counts.begin()) text += &count + 1 == counts.end() ? " or " : ", ";
+        text += std::to_string(count);
+    }
+    return text;
 }
 
 std::string placeOf(const std::string& list, size_t index) {
@@ -138,7 +153,12 @@ std::optional<int64_t> JsonFields::wholeNumber(const char* key, int64_t min, int
 }
 
 std::optional<std::vector<double>> JsonFields::numbers(const char* key, size_t count, Range range) {
-    const json* list = findList(key, count);
+    return numbers(key, std::initializer_list<size_t>{count}, range);
+}
+
+std::optional<std::vector<double>> JsonFields::numbers(const char* key, std::initializer_list<size_t> counts,
+                                                       Range range) {
+    const json* list = findList(key, counts);
     if (!list) return std::nullopt;
     std::vector<double> numbers;
     for (const json& value : *list)
@@ -148,7 +168,7 @@ std::optional<std::vector<double>> JsonFields::numbers(const char* key, size_t c
 
 std::optional<std::vector<int64_t>> JsonFields::wholeNumbers(const char* key, size_t count, int64_t min,
                                                              int64_t max) {
-    const json* list = findList(key, count);
+    const json* list = findList(key, {count});
     if (!list) return std::nullopt;
     std::vector<int64_t> numbers;
     for (const json& value : *list)
@@ -196,12 +216,11 @@ const json* JsonFields::find(const char* key) {
     return found == object_.end() ? nullptr : &*found;
 }
 
-const json* JsonFields::findList(const char* key, size_t count) {
+const json* JsonFields::findList(const char* key, std::initializer_list<size_t> counts) {
     const json* value = find(key);
     if (!value) return nullptr;
-    if (!value->is_array() || value->size() != count)
-        throw FieldError(FieldError::Kind::shape, nameOf(key),
-                         "a list of " + std::to_string(count) + " numbers",
+    if (!value->is_array() || std::ranges::find(counts, value->size()) == counts.end())
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "a list of " + listed(counts) + " numbers",
                          value->is_array() ? "a list of " + std::to_string(value->size()) : describe(*value));
     return value;
 }

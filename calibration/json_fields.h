@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,7 @@ struct Range {
     double min;
     double max;
     bool aboveMin = false;  // the lower end itself is not allowed
+    bool belowMax = false;  // nor is the upper end
 };
 
 // The members of one JSON object. Reading a key makes it a known one.
@@ -60,6 +62,8 @@ public:
     std::optional<double> number(const char* key, Range range);
     std::optional<int64_t> wholeNumber(const char* key, int64_t min, int64_t max);
     std::optional<std::vector<double>> numbers(const char* key, size_t count, Range range);
+    std::optional<std::vector<double>> numbers(const char* key, std::initializer_list<size_t> counts,
+                                               Range range);
     std::optional<std::vector<int64_t>> wholeNumbers(const char* key, size_t count, int64_t min, int64_t max);
     std::vector<JsonFields> objects(const char* key);  // a list that must be there, with one entry at least
     std::optional<JsonFields> object(const char* key);
@@ -78,7 +82,7 @@ public:
 
 private:
     const nlohmann::json* find(const char* key);
-    const nlohmann::json* findList(const char* key, size_t count);
+    const nlohmann::json* findList(const char* key, std::initializer_list<size_t> counts);
 
     const nlohmann::json& object_;
     std::string name_;

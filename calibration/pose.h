@@ -3,6 +3,7 @@
 // (SGCT and MPCDI). Right-handed, y up, forward is -z.
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 namespace curvewall {
 
@@ -12,6 +13,12 @@ struct Orientation {
     double rollRad = 0;
 
     bool operator==(const Orientation&) const = default;
+};
+
+// Where a display stands: wall from display is rotation and then center.
+struct Pose {
+    glm::dvec3 centerM{0};
+    Orientation orientation;
 };
 
 // World from view: Ry(-yaw) Rx(pitch) Rz(-roll).

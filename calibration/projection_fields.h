@@ -17,17 +17,12 @@ namespace curvewall {
 inline constexpr double kMostM = 1e7;  // no wall is larger than the earth
 inline constexpr Range kAnywhereM{-kMostM, kMostM};
 inline constexpr Range kLengthM{0, kMostM, true};
+inline constexpr Range kTurnsDeg{0, 1440, true};  // a panorama may go around more than once
 
 std::optional<glm::dvec3> vector3(JsonFields& fields, const char* key, Range range);
 
 // A number that must be there.
 double requiredNumber(JsonFields& fields, const char* key, Range range);
-
-// Where a display stands: wall from display is rotation and then center.
-struct Pose {
-    glm::dvec3 centerM{0};
-    Orientation orientation;
-};
 
 // center, yaw_deg, pitch_deg and roll_deg, all optional.
 Pose readPose(JsonFields& fields);

@@ -1,12 +1,16 @@
 #include "calibration/projection_reader.h"
 
 #include "calibration/cylinder.h"
+#include "calibration/lens_projection.h"
+#include "calibration/lens_reader.h"
 #include "calibration/planar.h"
 #include "calibration/projection_fields.h"
 
 #include <glm/trigonometric.hpp>
 
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -24,17 +28,48 @@ ProjectionPtr readPlanar(JsonFields& fields, const ProjectionContext& context) {
 ProjectionPtr readCylinder(JsonFields& fields, const ProjectionContext& context) {
     const Pose pose = readPose(fields);
     const CylinderWall cylinder{requiredNumber(fields, "radius", kLengthM),
-                                glm::radians(requiredNumber(fields, "arc_deg", {0, 360, true})),
+                                glm::radians(requiredNumber(fields, "arc_deg", kTurnsDeg)),
                                 requiredNumber(fields, "height", kLengthM), pose.centerM, pose.orientation};
     return std::make_shared<CylinderProjection>(cylinder, context.eyeM, context.sizePx);
+}
+
+// Nothing, a lens at infinity, or the inside of a sphere.
+std::optional<DomeSurface> readSurface(JsonFields& fields) {
+    auto surface = fields.object("surface");
+    if (!surface) return std::nullopt;
+    surface->require("type");
+    readChoice(*surface, "type", {"sphere"});
+    const DomeSurface dome{surface->required("center", vector3(*surface, "center", kAnywhereM)),
+                           requiredNumber(*surface, "radius", kLengthM)};
+    surface->refuseUnknownKeys();
+    return dome;
+}
+
+template <LensPtr (*ReadLens)(JsonFields&, glm::ivec2)>
+ProjectionPtr readThroughLens(JsonFields& fields, const ProjectionContext& context) {
+    const Pose pose = readPose(fields);
+    LensPtr lens = ReadLens(fields, context.sizePx);
+    if (const auto dome = readSurface(fields))
+        return std::make_shared<DomeProjection>(std::move(lens), pose, *dome, context.eyeM);
+    if (pose.centerM != glm::dvec3(0))
+        throw FieldError(
+            FieldError::Kind::value, fields.nameOf("center"),
+            "no place but the origin without a surface, since the picture is then infinitely far",
+            "another place");
+    return std::make_shared<LensProjection>(std::move(lens), pose.orientation);
 }
 
 using ReadType = ProjectionPtr (*)(JsonFields& fields, const ProjectionContext& context);
 
 const std::map<std::string, ReadType>& readers() {
     static const std::map<std::string, ReadType> kReaders{
+        {"camera", readThroughLens<readCameraLens>},
+        {"curvilinear", readThroughLens<readCurvilinearLens>},
         {"cylinder", readCylinder},
+        {"equirectangular", readThroughLens<readEquirectangularLens>},
         {"planar", readPlanar},
+        {"radial", readThroughLens<readRadialLens>},
+        {"sphere_slices", readThroughLens<readSphereSlicesLens>},
     };
     return kReaders;
 }

@@ -1,18 +1,14 @@
-// A cylinder about the y axis; the middle column looks along -z.
+// A cylinder about the y axis; the middle column looks along -z. Needs root_ahead.glsl.
 
 // The point of column angle `angle` (right positive) and height `y` on a wall of this radius.
 SHARED_FN real3 cylinderPoint(real radius, real angle, real y) {
     return real3(radius * sin(angle), y, -radius * cos(angle));
 }
 
-// How far along `ray` the wall lies for an eye at `eye` inside it; infinite along the axis. The one root
-// ahead of a t^2 + 2 b t + c = 0 with c < 0, written without cancellation.
+// How far along `ray` the wall lies for an eye at `eye` inside it; infinite along the axis.
 SHARED_FN real cylinderDistance(real radius, real3 eye, real3 ray) {
-    real a = ray.x * ray.x + ray.z * ray.z;
-    real b = eye.x * ray.x + eye.z * ray.z;
-    real c = eye.x * eye.x + eye.z * eye.z - radius * radius;
-    real root = sqrt(b * b - a * c);
-    return b > 0.0 ? -c / (b + root) : (root - b) / a;
+    return rootAhead(ray.x * ray.x + ray.z * ray.z, eye.x * ray.x + eye.z * ray.z,
+                     eye.x * eye.x + eye.z * eye.z - radius * radius);
 }
 
 // Column angle and height of a point on the wall.

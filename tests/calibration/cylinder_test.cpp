@@ -71,6 +71,21 @@ TEST(Cylinder, FullTurnWrapsIntoTheDisplay) {
     }
 }
 
+TEST(Cylinder, MoreThanATurnShowsARayInEveryColumnThatSeesIt) {
+    CylinderWall wall = test::fullCylinder(kSizePx);
+    wall.arcRad = 3 * kPi;
+    const CylinderProjection projection(wall, {0.3, 0.1, -0.4}, kSizePx);
+    const double turnPx = 1600 / 1.5;
+    test::Random random(3);
+    for (int i = 0; i < 10'000; ++i) {
+        const glm::dvec2 px = random.pixel(kSizePx);
+        const auto positions = projection.project(*projection.unproject(px));
+        ASSERT_EQ(positions.size(), px.x < 1600 - turnPx || px.x > turnPx ? 2u : 1u);
+        const size_t turn = px.x > turnPx ? 1 : 0;
+        ASSERT_LT(glm::distance(positions[turn], px), 1e-6);
+    }
+}
+
 TEST(Cylinder, RaysAlongTheAxisAreSeenNowhere) {
     const CylinderProjection projection(test::fullCylinder(kSizePx), {}, kSizePx);
     EXPECT_TRUE(projection.project({0, 1, 0}).empty());

@@ -77,6 +77,31 @@ TEST(JsonFields, RangesIncludeTheirEnds) {
     EXPECT_THROW(fields.wholeNumber("huge", 2, 5), FieldError);
 }
 
+TEST(JsonFields, EndsOfRangesMayBeExcluded) {
+    const json object{{"min", 2}, {"max", 5}};
+    JsonFields fields(object, "");
+    EXPECT_EQ(complaint([&] {
+                  fields.number("min", {2, 5, true});
+              }),
+              "min: expected a number above 2, at most 5, found 2");
+    EXPECT_EQ(complaint([&] {
+                  fields.number("max", {2, 5, true, true});
+              }),
+              "max: expected a number above 2, below 5, found 5");
+    EXPECT_EQ(fields.number("max", {2, 5, true}), 5);
+    EXPECT_EQ(fields.number("min", {2, 5, false, true}), 2);
+}
+
+TEST(JsonFields, ListsMayHaveOneOfSeveralLengths) {
+    const json object{{"list", {1, 2, 3, 4}}};
+    JsonFields fields(object, "");
+    EXPECT_EQ(fields.numbers("list", {0, 4}, {0, 9})->size(), 4u);
+    EXPECT_EQ(complaint([&] {
+                  fields.numbers("list", {0, 3, 5}, {0, 9});
+              }),
+              "list: expected a list of 0, 3 or 5 numbers, found a list of 4");
+}
+
 TEST(JsonFields, LargestNumbersDoNotOverflow) {
     const json object = parseJson(R"({"max":18446744073709551615,"min":-9223372036854775808,"float":16.0})");
     JsonFields fields(object, "");
