@@ -9,7 +9,8 @@ std::string pathForDisplay(const std::string& path, const std::string& display, 
     std::string replaced = path;
     for (size_t at = 0; (at = replaced.find(kPlaceholder, at)) != std::string::npos; at += display.size())
         replaced.replace(at, kPlaceholder.size(), display);
-    if (replaced != path || path.empty() || !severalDisplays) return replaced;
+    const bool isNamed = path.find(kPlaceholder) != std::string::npos;
+    if (isNamed || path.empty() || !severalDisplays) return replaced;
     std::filesystem::path named(path);
     named.replace_filename(named.stem().string() + "-" + display + named.extension().string());
     return named.string();

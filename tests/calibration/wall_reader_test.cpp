@@ -93,7 +93,7 @@ TEST_F(WallReader, ErrorsNameTheFileTheFieldAndWhatWasExpected) {
         {"/displays/0/size/1", "0", "displays[0].size[1]", "a whole number from 1 to 16384"},
         {"/displays/0/size/0", "640.5", "displays[0].size[0]", "a whole number"},
         {"/displays/0/projection", "[]", "displays[0].projection", "an object"},
-        {"/displays/0/projection/type", "\"cone\"", "displays[0].projection.type", "planar or cylinder"},
+        {"/displays/0/projection/type", "\"cone\"", "displays[0].projection.type", "one of cylinder"},
         {"/displays/0/projection/radius", "-1", "displays[0].projection.radius", "above 0"},
         {"/displays/0/projection/radius", "0", "displays[0].projection.radius", "above 0"},
         {"/displays/0/projection/radius", "1e999", "", "JSON"},
@@ -127,7 +127,7 @@ TEST_F(WallReader, MissingFieldsAreNamed) {
 }
 
 TEST_F(WallReader, UnknownAndRepeatedKeysAreErrors) {
-    for (const char* pointer : {"/gamma", "/displays/0/blend", "/displays/0/projection/arc"}) {
+    for (const char* pointer : {"/gamma", "/displays/0/blending", "/displays/0/projection/arc"}) {
         json changed = validWall();
         changed[json::json_pointer(pointer)] = 1;
         EXPECT_THAT(complaintAbout(changed.dump()), HasSubstr("only the keys")) << pointer;
