@@ -220,6 +220,7 @@ double maskAt(const Masked& masked, glm::dvec2 px) { return masked.mask.bilinear
 // really shown takes that out.
 void level(std::vector<Masked>& wall) {
     std::vector<Grid> levelled;
+    levelled.reserve(wall.size());
     for (const Masked& masked : wall) levelled.push_back(masked.mask);
     for (size_t i = 0; i < wall.size(); ++i)
         forEachRow(wall[i], [&](int y) {

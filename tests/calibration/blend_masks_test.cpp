@@ -20,7 +20,7 @@ namespace {
 float valueAt(const BlendMask& mask, glm::ivec2 sizePx, int x, int y) {
     x = std::clamp(x, 0, sizePx.x - 1);
     y = std::clamp(y, 0, sizePx.y - 1);
-    return mask.values[static_cast<size_t>(y * sizePx.x + x)];
+    return mask.values[static_cast<size_t>(y) * static_cast<size_t>(sizePx.x) + static_cast<size_t>(x)];
 }
 
 double bilinear(const BlendMask& mask, glm::ivec2 sizePx, glm::dvec2 px) {
