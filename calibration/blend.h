@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace curvewall {
@@ -14,5 +15,8 @@ struct BlendMaps {
 
     bool empty() const { return alpha.empty() && beta.empty(); }
 };
+
+// Shared by all that know the same display, such as the same wall for another eye.
+using BlendMapsPtr = std::shared_ptr<const BlendMaps>;
 
 }  // namespace curvewall

@@ -132,6 +132,11 @@ void JsonFields::require(std::string_view key) const {
     if (!has(key)) throw FieldError(FieldError::Kind::shape, nameOf(key), "a value", "nothing");
 }
 
+bool JsonFields::hasList(std::string_view key) const {
+    const auto found = object_.find(key);
+    return found != object_.end() && found->is_array();
+}
+
 std::optional<std::string> JsonFields::text(const char* key) {
     const json* value = find(key);
     if (!value) return std::nullopt;

@@ -55,6 +55,7 @@ public:
     JsonFields(const nlohmann::json& object, std::string name);
 
     bool has(std::string_view key) const { return object_.contains(key); }
+    bool hasList(std::string_view key) const;
     void require(std::string_view key) const;
 
     // Nothing when the key is absent; FieldError when the value does not fit.

@@ -24,4 +24,8 @@ struct NumberMap {
 // Throws InputError.
 NumberMap readNumberMap(const std::string& path);
 
+// One or three channels of numbers from 0 to 1 as a 16-bit PNG, likewise untouched. Throws std::runtime_error
+// where it cannot be written.
+void writePng16(const std::string& path, const NumberMap& map);
+
 }  // namespace curvewall

@@ -19,7 +19,7 @@ struct Display {
     glm::ivec2 sizePx{0};
     std::string projectionType;  // as the wall file writes it: "cylinder", "planar", ...
     ProjectionPtr projection;    // seen from the wall's eye
-    BlendMaps blend{};
+    BlendMapsPtr blend{};        // null where it does nothing; the same for every eye
 };
 
 struct Wall {

@@ -1,5 +1,6 @@
 #include "calibration/wall_reader.h"
 
+#include "calibration/blend_reader.h"
 #include "calibration/errors.h"
 #include "calibration/json_file.h"
 #include "calibration/projection_fields.h"
@@ -39,6 +40,9 @@ Display readDisplay(JsonFields& fields, const std::filesystem::path& folder, glm
                          "a screen that the eye can see", error.what());
     }
     projection.refuseUnknownKeys();
+    BlendMaps blend;
+    if (auto blendFields = fields.object("blend")) blend = readBlend(*blendFields, folder, display.sizePx);
+    if (!blend.empty()) display.blend = std::make_shared<const BlendMaps>(std::move(blend));
     fields.refuseUnknownKeys();
     return display;
 }

@@ -1,9 +1,11 @@
 #include "cli/camera_option.h"
 
 #include "calibration/errors.h"
+#include "calibration/projection_fields.h"
 
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -37,6 +39,14 @@ Camera cameraFromText(const std::string& text) {
     numbers.resize(6, 0);
     return {{numbers[0], numbers[1], numbers[2]},
             {glm::radians(numbers[3]), glm::radians(numbers[4]), glm::radians(numbers[5])}};
+}
+
+glm::dvec3 eyeFromText(const std::string& text) {
+    const std::vector<double> numbers = numbersIn(text);
+    if (numbers.size() != 3 || std::ranges::any_of(numbers, [](double m) { return std::abs(m) > kMostM; }))
+        throw UsageError("--eye: expected x,y,z in metres, each within " +
+                         std::to_string(static_cast<int>(kMostM)) + ", found \"" + text + "\"");
+    return {numbers[0], numbers[1], numbers[2]};
 }
 
 }  // namespace curvewall

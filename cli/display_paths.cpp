@@ -6,9 +6,11 @@ namespace curvewall {
 
 std::string pathForDisplay(const std::string& path, const std::string& display, bool severalDisplays) {
     constexpr std::string_view kPlaceholder = "{display}";
-    if (const size_t at = path.find(kPlaceholder); at != std::string::npos)
-        return std::string(path).replace(at, kPlaceholder.size(), display);
-    if (path.empty() || !severalDisplays) return path;
+    std::string replaced = path;
+    for (size_t at = 0; (at = replaced.find(kPlaceholder, at)) != std::string::npos; at += display.size())
+        replaced.replace(at, kPlaceholder.size(), display);
+    const bool isNamed = path.find(kPlaceholder) != std::string::npos;
+    if (isNamed || path.empty() || !severalDisplays) return replaced;
     std::filesystem::path named(path);
     named.replace_filename(named.stem().string() + "-" + display + named.extension().string());
     return named.string();

@@ -4,6 +4,8 @@
 #include "calibration/piece_drawing.h"
 #include "calibration/piece_fit.h"
 #include "calibration/wall_reader.h"
+#include "cli/blend_mask_files.h"
+#include "cli/camera_option.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"
 #include "cli/option_checks.h"
@@ -27,7 +29,7 @@ namespace {
 using nlohmann::json;
 
 struct InspectCommand {
-    std::string wall, display, errorMap, pieces, rays;
+    std::string wall, display, eye, errorMap, pieces, rays, blend;
     double tolerancePx = kDefaultTolerancePx;
     bool asJson = false;
 };
@@ -90,9 +92,18 @@ void writePieces(const std::string& path, const PieceMesh& mesh) {
     if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-void run(const InspectCommand& command) {
+Wall wallOf(const InspectCommand& command) {
     const Wall wall = readWall(command.wall);
+    return command.eye.empty() ? wall : seenFrom(wall, eyeFromText(command.eye));
+}
+
+void run(const InspectCommand& command) {
+    if (!command.blend.empty() && !command.display.empty())
+        throw UsageError(
+            "--blend needs the whole wall: a mask depends on the displays around; leave out --display");
+    const Wall wall = wallOf(command);
     const std::vector<const Display*> displays = chosenDisplays(wall, command.display);
+    if (!command.blend.empty()) makeFolder(command.blend);
     json report = {{"wall", wall.name}, {"displays", json::array()}};
     for (const Display* display : displays) {
         const auto path = [&](const std::string& option) {
@@ -109,6 +120,13 @@ void run(const InspectCommand& command) {
         else
             printReport(*display, command.tolerancePx, fitted);
     }
+    if (!command.blend.empty()) {
+        const BlendMaskFiles files = writeBlendMasks(wall, command.wall, command.blend);
+        if (command.asJson)
+            report["blend"] = toJson(files);
+        else
+            printReport(files);
+    }
     if (command.asJson) fmt::print("{}\n", report.dump(2));
 }
 
@@ -121,6 +139,8 @@ void addInspectCommand(CLI::App& app) {
         [](std::string& path) { return path.ends_with(".exr") ? "" : "expected an .exr file"; }, "");
     inspect->add_option("WALL", command->wall, "Wall file")->required();
     inspect->add_option("--display", command->display, "Display of the wall; all of them without it");
+    inspect->add_option("--eye", command->eye,
+                        "Where the eye is, x,y,z in wall coordinates, metres; the wall's own without it");
     inspect->add_option("--tolerance", command->tolerancePx, "Largest geometric error, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
@@ -132,6 +152,9 @@ void addInspectCommand(CLI::App& app) {
                         "The pieces: .json (vertices and pieces) or .svg (a drawing)");
     inspect->add_option("--rays", command->rays, "Unit ray of every pixel centre, .exr, NaN in holes")
         ->check(exrFile);
+    inspect->add_option("--blend", command->blend,
+                        "Folder, made where it is missing, for masks that blend the displays: "
+                        "DISPLAY-alpha.png, 16-bit, linear");
     inspect->callback([command] { run(*command); });
 }
 

@@ -42,4 +42,11 @@ void requireFolderOf(const std::string& path) {
         throw std::runtime_error(path + ": there is no folder " + folder.string());
 }
 
+void makeFolder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (!std::filesystem::is_directory(path))
+        throw std::runtime_error(path + ": cannot be made a folder: " + error.message());
+}
+
 }  // namespace curvewall

@@ -13,4 +13,7 @@ std::string checkFaceSize(std::string& text);  // 0 or a size
 // after it.
 void requireFolderOf(const std::string& path);
 
+// Throws std::runtime_error where there is no such folder and none can be made.
+void makeFolder(const std::string& path);
+
 }  // namespace curvewall

@@ -24,8 +24,8 @@ namespace curvewall {
 namespace {
 
 struct RenderCommand {
-    std::string wall, display, scene, camera, method = "piecewise", engine = "compute", style = "textured",
-                                              outputKind = "color", out, stats;
+    std::string wall, display, scene, camera, eye, method = "piecewise", engine = "compute",
+                                                   style = "textured", outputKind = "color", out, stats;
     double tolerancePx = kDefaultTolerancePx;
     int samples = 1, faceSizePx = 0, frames = 1;
 };
@@ -40,6 +40,7 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.faceSizePx = command.faceSizePx;
     request.frames = command.frames;
     if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
+    if (!command.eye.empty()) request.eyeM = eyeFromText(command.eye);
     if (command.out.empty()) return request;
     const ImageFormat format = imageFormatFromPath(command.out);
     request.linearOutput = format == ImageFormat::exr;
@@ -107,6 +108,8 @@ void addRenderCommand(CLI::App& app) {
         ->required();
     render->add_option("--camera", command->camera,
                        "Pose of the wall in the scene, x,y,z[,yaw,pitch,roll] in metres and degrees");
+    render->add_option("--eye", command->eye,
+                       "Where the eye is, x,y,z in wall coordinates, metres; the wall's own without it");
     render->add_option("--method", command->method, methodNames())
         ->check(oneOf(methodFromName, methodNames()))
         ->capture_default_str();

@@ -3,6 +3,8 @@
 #include "calibration/errors.h"
 #include "calibration/piece_fit.h"
 #include "calibration/stopwatch.h"
+#include "renderer/blended_target.h"
+#include "renderer/blending.h"
 #include "renderer/cube_faces.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/image_based.h"
@@ -38,6 +40,12 @@ Camera cameraOfFrame(const RenderRequest& request, int frame) {
     camera.orientation.yawRad += 2 * std::numbers::pi * frame / request.frames;
     return camera;
 }
+
+struct EyeKey {
+    WallPtr wall;
+    glm::dvec3 eyeM;
+    bool operator==(const EyeKey&) const = default;
+};
 
 struct PiecesKey {
     WallPtr wall;
@@ -105,7 +113,9 @@ struct Renderer::Impl {
     explicit Impl(size_t mostScenes) : references(mostScenes), scenes(mostScenes) {}
 
     std::optional<EglContext> context;
+    RecentlyUsed<EyeKey, const Wall> movedWalls{16};
     RecentlyUsed<ScenePtr, ReferenceRenderer> references;
+    RecentlyUsed<BlendMapsPtr, const GpuBlend> blends{16};
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
 
@@ -119,6 +129,16 @@ struct Renderer::Impl {
             return std::make_shared<PreparedPieces>(PreparedPieces{
                 fitted.certificate, uploadPieces(fitted.mesh), uploadOwners(fitted.owners, display.sizePx)});
         });
+    }
+
+    // What the frames of a request end in, with the display's maps where it has any.
+    BlendedTarget targetFor(const RenderRequest& request, const Display& display) {
+        std::shared_ptr<const GpuBlend> maps;
+        if (display.blend && request.output == OutputKind::color)
+            maps = blends.get(display.blend, [&] {
+                return std::make_shared<const GpuBlend>(uploadBlend(*display.blend, display.sizePx));
+            });
+        return {display.sizePx, {request.output, request.linearOutput}, std::move(maps)};
     }
 
     RenderResult piecewise(const RenderRequest& request, const Display& display);
@@ -139,7 +159,8 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     });
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
-    const SampledTarget target(display.sizePx, {request.output, request.linearOutput}, samples);
+    const BlendedTarget blended = targetFor(request, display);
+    const SampledTarget target(display.sizePx, blended.pictureFormat(), samples);
     stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
@@ -148,6 +169,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
         while (!pairs) {
             target.draw(request.wall->background,
                         [&](const FramePass& pass) { renderer->record(view, pass); });
+            blended.record(target.picture());
             waitForGpu();
             pairs = renderer->finishFrame();
         }
@@ -155,7 +177,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     };
     uint64_t firstPairs = 0;
     const auto readFirst = [&] {
-        result.frame = target.read();
+        result.frame = blended.read(target.picture());
         firstPairs = stats.pairs;
     };
     measureFrames(request, draw, readFirst, stats);
@@ -179,7 +201,8 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
     const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);
     const auto middle = display.projection->unproject(glm::dvec2(display.sizePx) / 2.0);
-    const TargetFormat format{request.output, request.linearOutput};
+    const BlendedTarget blended = targetFor(request, display);
+    const TargetFormat format = blended.pictureFormat();
     ImageBasedRenderer renderer(scene->gpu, rays, display.sizePx, faceSizePx, faces,
                                 middle ? glm::length(*middle) : 1.0, {request.style, request.output}, format);
     const FrameTarget target(display.sizePx, format, 1);
@@ -188,10 +211,11 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     const auto draw = [&](const Camera& camera) {
         renderer.record(sceneViewOf(camera, request.wall->eyeM, *request.scene), target,
                         request.wall->background);
+        blended.record(target);
         waitForGpu();
     };
     measureFrames(
-        request, draw, [&] { result.frame = target.read(); }, stats);
+        request, draw, [&] { result.frame = blended.read(target); }, stats);
     stats.method = "image-based";
     stats.engine = "cube";
     stats.geometricError = errorOf(cubeError(display, rays, faceSizePx));
@@ -211,6 +235,8 @@ RenderResult Renderer::Impl::reference(const RenderRequest& request, const Displ
     const auto draw = [&](const Camera& camera) {
         latest = renderer->render(*request.wall, display, camera,
                                   {request.style, request.output, request.samples});
+        if (display.blend && request.output == OutputKind::color)
+            blend(latest, *display.blend, mostLight(request.linearOutput));
     };
     measureFrames(
         request, draw, [&] { result.frame = std::move(latest); }, result.stats);
@@ -223,7 +249,12 @@ RenderResult Renderer::Impl::reference(const RenderRequest& request, const Displ
 Renderer::Renderer(size_t mostScenes) : impl_(std::make_unique<Impl>(mostScenes)) {}
 Renderer::~Renderer() = default;
 
-RenderResult Renderer::render(const RenderRequest& request) {
+RenderResult Renderer::render(const RenderRequest& asked) {
+    RenderRequest request = asked;
+    if (asked.eyeM)
+        request.wall = impl_->movedWalls.get({asked.wall, *asked.eyeM}, [&] {
+            return std::make_shared<const Wall>(seenFrom(*asked.wall, *asked.eyeM));
+        });
     const Display& display = findDisplay(*request.wall, request.display);
     if (request.method != Method::reference && !impl_->context) impl_->context.emplace();
     RenderResult result;

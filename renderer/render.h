@@ -10,6 +10,7 @@
 #include "renderer/stats.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace curvewall {
@@ -18,7 +19,8 @@ enum class Method { piecewise, imageBased, reference };
 
 struct RenderRequest {
     WallPtr wall;
-    std::string display;  // empty: the wall's first
+    std::string display;             // empty: the wall's first
+    std::optional<glm::dvec3> eyeM;  // wall coordinates; without one the wall's own
     ScenePtr scene;
     Camera camera;
     Method method = Method::piecewise;

@@ -19,8 +19,8 @@ public:
     // Calls record for every pass.
     void draw(glm::vec3 background, const std::function<void(const FramePass&)>& record) const;
 
-    // Waits for the GPU. Never within a frame.
-    Frame read() const { return sum_ ? sum_->read() : target_.read(); }
+    // Where the finished picture is.
+    const FrameTarget& picture() const { return sum_ ? *sum_ : target_; }
 
 private:
     void addPass() const;

@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/json_fields.h"
+#include "calibration/projection_fields.h"
 #include "renderer/names.h"
 #include "renderer/request_limits.h"
 
@@ -81,6 +82,7 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
         request.camera = decodeCamera(std::move(*camera));
         call.cameraGiven = true;
     }
+    if (const auto eye = vector3(fields, "eye", kAnywhereM)) request.eyeM = *eye;
     readName(fields, "method", methodFromName, methodNames, request.method);
     decodeEngine(fields);
     request.tolerancePx = fields.number("tolerance_px", kTolerancePx).value_or(request.tolerancePx);

@@ -127,7 +127,7 @@ TEST_F(WallReader, MissingFieldsAreNamed) {
 }
 
 TEST_F(WallReader, UnknownAndRepeatedKeysAreErrors) {
-    for (const char* pointer : {"/gamma", "/displays/0/blend", "/displays/0/projection/arc"}) {
+    for (const char* pointer : {"/gamma", "/displays/0/blending", "/displays/0/projection/arc"}) {
         json changed = validWall();
         changed[json::json_pointer(pointer)] = 1;
         EXPECT_THAT(complaintAbout(changed.dump()), HasSubstr("only the keys")) << pointer;

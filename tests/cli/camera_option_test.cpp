@@ -28,5 +28,11 @@ TEST(CameraOption, AnythingElseIsRefused) {
         EXPECT_THROW(cameraFromText(text), UsageError) << text;
 }
 
+TEST(EyeOption, IsThreeNumbersOnEarth) {
+    EXPECT_EQ(eyeFromText("1,-2.5,3e2"), glm::dvec3(1, -2.5, 300));
+    for (const char* text : {"", "1,2", "1,2,3,4", "1,2,x", "nan,0,0", "0,0,1e300", "0,-2e7,0"})
+        EXPECT_THROW(eyeFromText(text), UsageError) << text;
+}
+
 }  // namespace
 }  // namespace curvewall

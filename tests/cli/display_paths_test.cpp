@@ -20,6 +20,8 @@ TEST(DisplayPaths, SeveralDisplaysPutTheirNamesBeforeTheExtension) {
 TEST(DisplayPaths, ThePlaceholderIsReplaced) {
     EXPECT_EQ(pathForDisplay("{display}/a.png", "left", true), "left/a.png");
     EXPECT_EQ(pathForDisplay("a-{display}.png", "left", false), "a-left.png");
+    EXPECT_EQ(pathForDisplay("{display}/{display}.png", "left", true), "left/left.png");
+    EXPECT_EQ(pathForDisplay("{display}.png", "{display}", true), "{display}.png");
 }
 
 TEST(DisplayPaths, WithoutANameAllDisplaysAreChosen) {

@@ -1,5 +1,6 @@
 // The program as a shell sees it: exit codes, messages, files.
 
+#include "calibration/map_file.h"
 #include "renderer/image_file.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -10,10 +11,13 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -107,6 +111,77 @@ TEST_F(Program, InspectReportsTheCertificateAsJson) {
     EXPECT_NEAR(ahead[2], -1, 1e-3);
 }
 
+TEST_F(Program, MasksOfAWallAreWrittenAndUsedAsInspectSays) {
+    // Two flat screens that turn away from each other and share a third of what they show.
+    const auto wallText = [](const json& left, const json& right) {
+        json wall = json::parse(R"({"wall": "pair", "displays": []})");
+        for (const auto& [name, yawDeg, blend] : {std::tuple{"left", -25, left}, {"right", 25, right}})
+            wall["displays"].push_back({{"name", name},
+                                        {"size", {160, 120}},
+                                        {"blend", blend},
+                                        {"projection",
+                                         {{"type", "planar"},
+                                          {"lower_left", {-1, -0.75, -1}},
+                                          {"lower_right", {1, -0.75, -1}},
+                                          {"upper_left", {-1, 0.75, -1}},
+                                          {"yaw_deg", yawDeg}}}});
+        return wall.dump();
+    };
+    const std::string plain = folder_.write("pair.json", wallText(json::object(), json::object()));
+    const std::string folder = file("made/here");
+    const Outcome text = run("", "inspect " + plain + " --blend " + folder);
+    ASSERT_EQ(text.exitCode, 0) << text.output;
+    EXPECT_THAT(text.output, HasSubstr(R"("blend": {"alpha":"made/here/left-alpha.png"})"));
+    EXPECT_THAT(text.output, HasSubstr("sum to 1 within"));
+
+    const Outcome asJson = run("", "inspect " + plain + " --json --blend " + folder);
+    ASSERT_EQ(asJson.exitCode, 0) << asJson.output;
+    const json blend = json::parse(asJson.output)["blend"];
+    ASSERT_EQ(blend["displays"].size(), 2u);
+    EXPECT_NEAR(blend["displays"][0]["overlap_share"], 0.5, 0.2);
+    EXPECT_LT(blend["sum_deviation"]["share_above_1_percent"], 0.01);
+    EXPECT_GE(blend["sum_deviation"]["max"], 0);
+    EXPECT_TRUE(blend["sum_deviation"]["max_at"].contains("pixel"));
+
+    // A white wall with the masks shows the masks.
+    const json lines[] = {blend["displays"][0]["blend"], blend["displays"][1]["blend"]};
+    json masked = json::parse(wallText(lines[0], lines[1]));
+    masked["background"] = {1, 1, 1};
+    folder_.write("empty.obj", "v 0 9 9\nv 1 9 9\nv 0 9 8\nf 1 2 3\n");
+    const std::string rendered = "render " + folder_.write("masked.json", masked.dump()) + " --scene " +
+                                 file("empty.obj") + " --camera 0,0,0 --out " + file("m.exr");
+    const Outcome outcome = run("", rendered);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.output;
+    for (const char* name : {"left", "right"}) {
+        const NumberMap mask = readNumberMap(folder + "/" + name + "-alpha.png");
+        const Frame frame = readFrame(file("m-" + std::string(name) + ".exr"));
+        ASSERT_EQ(mask.sizePx, frame.sizePx);
+        for (size_t i = 0; i < mask.values.size(); ++i)
+            ASSERT_NEAR(frame.texels[3 * i], mask.values[i], 1e-6) << name << " " << i;
+    }
+}
+
+TEST_F(Program, AnotherEyeIsAnOptionOfRenderAndInspect) {
+    const auto picture = [&](const std::string& options, const std::string& name) {
+        const Outcome outcome =
+            run("", "render " + wall() + " --scene room --display left --out " + file(name) + options);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.output;
+        return readFrame(file(name)).texels;
+    };
+    const std::vector<float> own = picture("", "own.png");
+    EXPECT_EQ(own, picture(" --eye 0,0,0", "same.png"));
+    EXPECT_NE(own, picture(" --eye 0.5,0.2,-0.4", "moved.png"));
+    const auto firstRay = [&](const std::string& options) {
+        EXPECT_EQ(
+            run("", "inspect " + wall() + " --display right --rays " + file("r.exr") + options).exitCode, 0);
+        return readFrame(file("r.exr")).at(0, 0)[0];
+    };
+    // The screen is one metre ahead and reaches one metre to the left.
+    const double x = -1 + 1.0 / 64, y = 1 - 1.0 / 48;
+    EXPECT_NEAR(firstRay(""), x / std::sqrt(x * x + y * y + 1), 1e-6);
+    EXPECT_NEAR(firstRay(" --eye 0.5,0,1"), (x - 0.5) / std::sqrt((x - 0.5) * (x - 0.5) + y * y + 4), 1e-6);
+}
+
 TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
     EXPECT_EQ(run("", "--help").exitCode, 0);
     EXPECT_EQ(run("", "--version").exitCode, 0);
@@ -129,6 +204,12 @@ TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
              {render + "--display middle", 2, "left, right"},
              {render + "--camera 1,2", 2, "x,y,z"},
              {render + "--out a.gif", 2, ".gif"},
+             {render + "--eye 1,2", 2, "--eye"},
+             {render + "--eye 0,0,2", 2, "display \"left\": the eye is not inside the cylinder"},
+             {render + "--eye 0,0,-1", 2, "display \"right\": the eye lies in the plane"},
+             {"inspect " + wall() + " --eye 0,0,2", 2, "the eye is not inside the cylinder"},
+             {"inspect " + wall() + " --display left --blend " + file("b"), 2, "leave out --display"},
+             {"inspect " + wall() + " --blend " + wall(), 1, "cannot be made a folder"},
              {render + "--output-kind depth --out a.png", 2, ".exr"},
              {"render " + wall() + " --scene city:999", 2, "1000"},
              {"render " + file("none.json") + " --scene room", 3, "none.json"},

@@ -168,6 +168,22 @@ TEST_F(DaemonE2eTest, DifferentCamerasGiveDifferentPictures) {
     EXPECT_THAT(header(ahead, "Server-Timing"), HasSubstr("queue;dur="));
 }
 
+TEST_F(DaemonE2eTest, TheEyeMovesThePictureAndHasToSeeTheWall) {
+    HttpClient client(port_);
+    const auto bodyFrom = [](const json& eye) {
+        return json{{"wall", "small"}, {"scene", "room"}, {"eye", eye}}.dump();
+    };
+    const auto own = client.render(R"({"wall": "small", "scene": "room"})");
+    const auto same = client.render(bodyFrom({0, 0, 0}));
+    const auto moved = client.render(bodyFrom({0.5, 0.2, -0.4}));
+    EXPECT_EQ(moved.result_int(), 200U);
+    EXPECT_TRUE(own.body() == same.body());  // without printing images
+    EXPECT_TRUE(own.body() != moved.body());
+    const auto blind = client.render(bodyFrom({0, 0, 2}));  // on the wall itself
+    EXPECT_EQ(blind.result_int(), 422U);
+    EXPECT_THAT(blind.body(), HasSubstr("the eye is not inside the cylinder"));
+}
+
 TEST_F(DaemonE2eTest, TheSignalWaitsForTheFrameInHand) {
     HttpClient client(port_);
     client.send(HttpClient::request("POST", "/v1/render", R"({"wall": "small", "scene": "city:2000",

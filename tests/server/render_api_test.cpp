@@ -41,6 +41,7 @@ TEST(RenderApi, OnlyWallAndSceneAreNeeded) {
     const RenderRequest& request = call.request;
     EXPECT_EQ(request.wall->displays.size(), 2U);
     EXPECT_EQ(request.display, "");
+    EXPECT_FALSE(request.eyeM);
     EXPECT_EQ(request.method, Method::piecewise);
     EXPECT_EQ(request.tolerancePx, kDefaultTolerancePx);
     EXPECT_EQ(request.faceSizePx, 0);
@@ -55,6 +56,7 @@ TEST(RenderApi, EveryFieldIsTaken) {
     const RenderCall call = decode(R"({
         "wall": "small", "display": "right", "scene": "model",
         "camera": {"position": [1, -2.5, 3e3], "yaw_deg": 90, "pitch_deg": -45, "roll_deg": 180},
+        "eye": [0.5, -1, 2],
         "method": "image-based", "engine": "compute", "tolerance_px": 0.5, "face_size": 64, "samples": 4,
         "style": "unlit", "output_kind": "position", "format": "exr"})");
     EXPECT_EQ(call.scene, "/scenes/model.glb");
@@ -66,6 +68,7 @@ TEST(RenderApi, EveryFieldIsTaken) {
     EXPECT_DOUBLE_EQ(request.camera.orientation.yawRad, std::numbers::pi / 2);
     EXPECT_DOUBLE_EQ(request.camera.orientation.pitchRad, -std::numbers::pi / 4);
     EXPECT_DOUBLE_EQ(request.camera.orientation.rollRad, std::numbers::pi);
+    EXPECT_EQ(request.eyeM, glm::dvec3(0.5, -1, 2));
     EXPECT_EQ(request.method, Method::imageBased);
     EXPECT_EQ(request.tolerancePx, 0.5);
     EXPECT_EQ(request.faceSizePx, 64);
@@ -125,6 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             {{"camera", {{"position", {1, 2, 3}}, {"yaw", 1}}}},
             R"(camera: expected only the keys position, yaw_deg, pitch_deg, roll_deg, found the key "yaw")"},
+        Mistake{{{"eye", {1, 2}}}, "eye: expected a list of 3 numbers, found a list of 2"},
+        Mistake{{{"eye", {0, "x", 0}}}, R"(eye[1]: expected a number, found "x")"},
         Mistake{{{"method", 3}}, "method: expected a string, found 3"},
         Mistake{{{"engine", json::object()}}, "engine: expected a string, found an object"},
         Mistake{{{"tolerance_px", "0.25"}}, R"(tolerance_px: expected a number, found "0.25")"},
@@ -133,10 +138,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"style", false}}, "style: expected a string, found false"},
         Mistake{{{"output_kind", 0}}, "output_kind: expected a string, found 0"},
         Mistake{{{"format", json::array()}}, "format: expected a string, found a list"},
-        Mistake{
-            {{"frames", 2}},
-            "expected only the keys wall, scene, display, camera, method, engine, tolerance_px, face_size, "
-            "samples, style, output_kind, format, found the key \"frames\""}));
+        Mistake{{{"frames", 2}},
+                "expected only the keys wall, scene, display, camera, eye, method, engine, tolerance_px, "
+                "face_size, samples, style, output_kind, format, found the key \"frames\""}));
 
 class ImpossibleField : public ::testing::TestWithParam<Mistake> {};
 
@@ -160,6 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"camera", {{"position", {1e13, 0, 0}}}}}, "camera.position[0]: expected a number from"},
         Mistake{{{"camera", {{"position", {0, 0, 0}}, {"yaw_deg", 1e7}}}},
                 "camera.yaw_deg: expected a number from"},
+        Mistake{{{"eye", {0, 0, 1e8}}}, "eye[2]: expected a number from"},
         Mistake{{{"method", "magic"}},
                 R"(method: expected piecewise, image-based or reference, found "magic")"},
         Mistake{{{"engine", "geometry"}}, R"(engine: expected compute, found "geometry")"},
