@@ -88,21 +88,26 @@ double facetDeterminant(const std::array<glm::dvec3, 4>& m, const std::array<uin
 // least squares. Rays are written in the flat model's own axes and places as fractions of the cell, so the
 // answer is the identity but for what the surface bends: h1 . c = u h3 . c, h2 . c = v h3 . c, h3 = (1, a,
 // b). Gives the points of the plane at the cell's corners.
+//
+// The pixels around the cell have a small say: they decide what its own leave open, where a display ends
+// within the cell or the cell is thin.
 std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
-                                    const std::vector<glm::ivec2>& pixels) {
-    const FlatModel model = flatModelOf(rays, pixels);
+                                    const std::vector<glm::ivec2>& own,
+                                    const std::vector<glm::ivec2>& around) {
+    constexpr double kSayOfOthers = 1e-3;
+    const FlatModel model = flatModelOf(rays, around.empty() ? own : around);
     const glm::dvec2 half = 0.5 * glm::dvec2(cell.sizePx());
     const glm::dmat3 axes(model.m0, half.x * model.slope[0], half.y * model.slope[1]);
     const glm::dmat3 fromRay = glm::inverse(axes);
     const auto place = [&](glm::dvec2 px) { return (px - model.s0) / half; };
 
-    // A trace of "it does not bend" decides what the pixels leave open.
-    const double trace = 1e-6 * static_cast<double>(pixels.size());
+    // And a trace of "it does not bend", where they leave it open too.
+    const double trace = 1e-6 * static_cast<double>(own.size());
     Eigen::Matrix<double, 8, 8> normal = trace * Eigen::Matrix<double, 8, 8>::Identity();
     Eigen::Matrix<double, 8, 1> flat, right;
     flat << 0, 1, 0, 0, 0, 1, 0, 0;
     right = trace * flat;
-    for (glm::ivec2 px : pixels) {
+    const auto add = [&](glm::ivec2 px, double weight) {
         glm::dvec3 c = fromRay * rays.at(px);
         c /= c.x;
         const glm::dvec2 uv = place(centreOf(px));
@@ -110,16 +115,33 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
             Eigen::Matrix<double, 8, 1> row = Eigen::Matrix<double, 8, 1>::Zero();
             row.segment<3>(3 * axis) << c.x, c.y, c.z;
             row.tail<2>() << -uv[axis] * c.y, -uv[axis] * c.z;
-            normal += row * row.transpose();
-            right += uv[axis] * row;
+            normal += weight * row * row.transpose();
+            right += weight * uv[axis] * row;
         }
-    }
+    };
+    for (glm::ivec2 px : own) add(px, 1);
+    for (glm::ivec2 px : around) add(px, kSayOfOthers);
     const Eigen::Matrix<double, 8, 1> h = normal.ldlt().solve(right);
     const glm::dmat3 fromC(h[0], h[3], 1, h[1], h[4], h[6], h[2], h[5], h[7]);
     const glm::dmat3 fromPlace = axes * glm::inverse(fromC);
     std::array<glm::dvec3, 4> m{};
     for (size_t i = 0; i < 4; ++i) m[i] = fromPlace * glm::dvec3(place(cornersOf(cell)[i]), 1);
     return m;
+}
+
+// Near a pole or a rim, where a display's scale has no bound, a plane can be right at every pixel's centre
+// and span half the space between them. Such pieces would touch everything.
+bool isWiderThanSeen(const RayImage& rays, const std::vector<glm::ivec2>& pixels,
+                     const std::array<glm::dvec3, 4>& corners) {
+    constexpr double kMostTimes = 4;
+    glm::dvec3 mean(0);
+    for (glm::ivec2 px : pixels) mean += glm::normalize(rays.at(px));
+    mean = glm::normalize(mean);
+    double seen = 0, spanned = 0;
+    for (glm::ivec2 px : pixels) seen = std::max(seen, glm::distance(glm::normalize(rays.at(px)), mean));
+    for (const glm::dvec3& corner : corners)
+        spanned = std::max(spanned, glm::distance(glm::normalize(corner), mean));
+    return seen > 0 && !(spanned <= kMostTimes * seen);
 }
 
 }  // namespace
@@ -182,8 +204,13 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
     if (facets.isEmpty) return facets;
 
     facets.pixelCount = static_cast<int>(pixels.size());
-    facets.corners = bestPlane(rays, cell, hasHoles(cell, pixels) ? pixelsAround(rays, cell) : pixels);
-    facets.errorPx = facetErrorPx(rays, cell, facets.corners, true, pixels);
+    std::vector<glm::ivec2> around;
+    if (hasHoles(cell, pixels) || std::min(cell.sizePx().x, cell.sizePx().y) == 1)
+        around = pixelsAround(rays, cell);
+    facets.corners = bestPlane(rays, cell, pixels, around);
+    facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
+                         ? kInfinity
+                         : facetErrorPx(rays, cell, facets.corners, true, pixels);
     return facets;
 }
 

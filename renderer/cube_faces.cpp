@@ -2,6 +2,7 @@
 
 #include "calibration/ownership.h"
 #include "calibration/parallel.h"
+#include "calibration/ray_image.h"
 #include "renderer/request_limits.h"
 
 #include <glm/geometric.hpp>
@@ -29,18 +30,25 @@ const FaceAxes& axesOf(int face) { return kFaces[static_cast<size_t>(face)]; }
 
 bool isRay(const glm::vec4& ray) { return ray.w != 0; }
 
+// The densest pixels that a face need not resolve: at the pole of a map of longitudes density has no bound.
+constexpr double kDenseShare = 0.01;
+
+// Whether the display's right border shows what its left border shows, so that errors are counted around.
+bool isClosed(const Display& display) {
+    const double middle = 0.5 * display.sizePx.y;
+    const auto left = display.projection->unproject({0, middle});
+    const auto right = display.projection->unproject({display.sizePx.x, middle});
+    return left && right && glm::distance(glm::normalize(*left), glm::normalize(*right)) < 1e-9;
+}
+
 }  // namespace
 
 std::vector<glm::vec4> displayRays(const Display& display) {
-    const glm::ivec2 sizePx = display.sizePx;
-    std::vector<glm::vec4> rays(static_cast<size_t>(sizePx.x) * static_cast<size_t>(sizePx.y));
-    parallelRanges(sizePx.y, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y)
-            for (int x = 0; x < sizePx.x; ++x)
-                if (const auto ray = display.projection->unproject({x + 0.5, y + 0.5}))
-                    rays[static_cast<size_t>(y) * static_cast<size_t>(sizePx.x) + static_cast<size_t>(x)] =
-                        glm::vec4(glm::vec3(glm::normalize(*ray)), 1);
-    });
+    const RayImage exact(*display.projection, display.sizePx);
+    std::vector<glm::vec4> rays;
+    rays.reserve(exact.all().size());
+    for (const glm::dvec3& ray : exact.all())
+        rays.push_back(RayImage::isRay(ray) ? glm::vec4(glm::vec3(glm::normalize(ray)), 1) : glm::vec4(0));
     return rays;
 }
 
@@ -72,20 +80,26 @@ PieceMesh cubeFaceMesh(int face, int faceSizePx, double distanceM) {
 }
 
 int faceSizeFor(const Display& display, const std::vector<glm::vec4>& rays) {
-    double smallestStep = 2;  // of a face's width, between neighbouring pixels
-    const auto step = [&](const glm::vec4& a, const glm::vec4& b) {
-        const int face = cubeFaceOf(a);
-        if (!isRay(a) || !isRay(b) || cubeFaceOf(b) != face) return;
-        const double width = glm::length(cubeFacePosition(b, face) - cubeFacePosition(a, face));
-        smallestStep = std::min(smallestStep, width);
-    };
+    std::vector<float> steps;  // of a face's width, from each pixel to the nearer of its neighbours
     const auto width = static_cast<size_t>(display.sizePx.x);
     for (size_t i = 0; i < rays.size(); ++i) {
-        if ((i + 1) % width != 0) step(rays[i], rays[i + 1]);
-        if (i + width < rays.size()) step(rays[i], rays[i + width]);
+        float least = 2;
+        const auto stepTo = [&](size_t next) {
+            const int face = cubeFaceOf(rays[i]);
+            if (!isRay(rays[next]) || cubeFaceOf(rays[next]) != face) return;
+            const glm::dvec2 step = cubeFacePosition(rays[next], face) - cubeFacePosition(rays[i], face);
+            least = std::min(least, static_cast<float>(glm::length(step)));
+        };
+        if (!isRay(rays[i])) continue;
+        if ((i + 1) % width != 0) stepTo(i + 1);
+        if (i + width < rays.size()) stepTo(i + width);
+        steps.push_back(least);
     }
+    if (steps.empty()) return kLeastFacePx;
+    const auto dense = steps.begin() + static_cast<std::ptrdiff_t>(kDenseShare * double(steps.size() - 1));
+    std::nth_element(steps.begin(), dense, steps.end());
     // Rays are single precision, so a step is known to about a thousandth.
-    const double sizePx = 0.999 / std::max(smallestStep, 0.5 / kMostAutomaticFacePx);
+    const double sizePx = 0.999 / std::max<double>(*dense, 0.5 / kMostAutomaticFacePx);
     return std::clamp(static_cast<int>(std::ceil(sizePx / 16)) * 16, kLeastFacePx, kMostAutomaticFacePx);
 }
 
@@ -108,6 +122,7 @@ Certificate cubeError(const Display& display, const std::vector<glm::vec4>& rays
     std::vector<float> errors(rays.size(), std::numeric_limits<float>::quiet_NaN());
     const std::vector<int32_t> owners(rays.size(), 0);
     const glm::ivec2 sizePx = display.sizePx;
+    const bool closed = isClosed(display);
     parallelRanges(sizePx.y, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < sizePx.x; ++x) {
@@ -121,11 +136,11 @@ Certificate cubeError(const Display& display, const std::vector<glm::vec4>& rays
                 double least = std::numeric_limits<double>::infinity();
                 for (glm::dvec2 px : display.projection->project(shown)) {
                     glm::dvec2 offset = glm::abs(px - glm::dvec2(x + 0.5, y + 0.5));
-                    offset.x = std::min(
-                        offset.x, std::abs(sizePx.x - offset.x));  // the other side of a full turn's seam
+                    if (closed) offset.x = std::min(offset.x, std::abs(sizePx.x - offset.x));
                     least = std::min(least, glm::length(offset));
                 }
-                errors[i] = static_cast<float>(least);
+                // Beyond the display's edge no pixel sees the texel's ray.
+                if (std::isfinite(least)) errors[i] = static_cast<float>(least);
             }
         }
     });

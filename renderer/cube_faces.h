@@ -21,15 +21,15 @@ glm::dvec3 cubeFaceRay(glm::dvec2 position, int face);
 // The face as a mesh of one piece; its facet is `distanceM` from the eye.
 PieceMesh cubeFaceMesh(int face, int faceSizePx, double distanceM);
 
-// One texel of the face for one pixel where the display is densest, rounded up to a multiple of 16 and kept
-// within kLeastFacePx and kMostAutomaticFacePx of request_limits.h.
+// One texel of the face for one pixel where the display is densest but for a hundredth of it, rounded up to a
+// multiple of 16 and kept within kLeastFacePx and kMostAutomaticFacePx of request_limits.h.
 int faceSizeFor(const Display& display, const std::vector<glm::vec4>& rays);
 
 // Faces whose texels are read when the rays are filtered linearly.
 std::array<bool, 6> facesSeen(const std::vector<glm::vec4>& rays, int faceSizePx);
 
 // How far the centre of the nearest texel lies from the pixel that shows it, in display pixels, over all
-// pixels.
+// pixels; those whose texel lies beyond what the display sees are left out.
 Certificate cubeError(const Display& display, const std::vector<glm::vec4>& rays, int faceSizePx);
 
 }  // namespace curvewall

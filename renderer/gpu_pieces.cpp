@@ -1,5 +1,6 @@
 #include "renderer/gpu_pieces.h"
 
+#include "calibration/ownership.h"
 #include "calibration/piece_tree.h"
 
 #include <glm/geometric.hpp>
@@ -77,10 +78,10 @@ GpuPieces uploadPieces(const PieceMesh& mesh) {
     return gpu;
 }
 
-GlTexture uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
-    GlTexture texture = makeTexture2D(GL_R32I, sizePx);
-    glTextureSubImage2D(texture.id(), 0, 0, 0, sizePx.x, sizePx.y, GL_RED_INTEGER, GL_INT, owners.data());
-    return texture;
+GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
+    GpuOwners gpu{makeTexture2D(GL_R32I, sizePx), std::ranges::find(owners, kNoPiece) != owners.end()};
+    glTextureSubImage2D(gpu.texture.id(), 0, 0, 0, sizePx.x, sizePx.y, GL_RED_INTEGER, GL_INT, owners.data());
+    return gpu;
 }
 
 }  // namespace curvewall

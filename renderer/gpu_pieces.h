@@ -21,7 +21,12 @@ struct GpuPieces {
 
 GpuPieces uploadPieces(const PieceMesh& mesh);
 
-// The owner of every pixel as an R32I texture; see calibration/ownership.h.
-GlTexture uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx);
+// The owner of every pixel; see calibration/ownership.h.
+struct GpuOwners {
+    GlTexture texture;  // R32I
+    bool hasHoles = false;
+};
+
+GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx);
 
 }  // namespace curvewall

@@ -3,24 +3,25 @@
 namespace curvewall {
 namespace {
 
-bool needsSingleCover(OutputKind output) {
-    return output == OutputKind::coverage || output == OutputKind::position;
-}
-
-GeometryPath pathThrough(const GpuPieces& pieces, OutputKind output) {
-    const bool pairs = pieces.pieceCount > 1;
-    return {.pairs = pairs, .clipPlanes = pieces.clipPlanes, .owned = pairs && needsSingleCover(output)};
+GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, OutputKind output) {
+    GeometryPath path{.pairs = pieces.pieceCount > 1, .clipPlanes = pieces.clipPlanes};
+    const bool singleCover = output == OutputKind::coverage || output == OutputKind::position;
+    if (path.pairs && singleCover)
+        path.right = PixelRight::owner;
+    else if (owners && owners->hasHoles)
+        path.right = PixelRight::notHoles;
+    return path;
 }
 
 }  // namespace
 
 PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
-                                     SceneLook look, const GlTexture* owners)
+                                     SceneLook look, const GpuOwners* owners)
     : scene_(scene),
       pieces_(pieces),
       coverage_(pieces.pieceCount > 1 ? coverage : nullptr),
       owners_(owners),
-      programs_(*scene.scene, look, pathThrough(pieces, look.output)),
+      programs_(*scene.scene, look, pathThrough(pieces, owners, look.output)),
       emptyVertexArray_(makeVertexArray()) {}
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
@@ -29,7 +30,7 @@ void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     for (int i = 0; i < 8; ++i)
         (i < pieces_.clipPlanes ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
-    if (owners_) glBindTextureUnit(1, owners_->id());
+    if (owners_) glBindTextureUnit(1, owners_->texture.id());
     if (coverage_)
         recordPairs(view);
     else

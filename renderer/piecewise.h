@@ -15,10 +15,10 @@ namespace curvewall {
 class PiecewiseRenderer {
 public:
     // `coverage` finds the pairs where there are several pieces; it serves all renderers of its scene, one
-    // frame at a time. With one piece it may be null. `owners` is the texture of uploadOwners and is needed
-    // for OutputKind::coverage and position, where each pixel must be its owner's; elsewhere it may be null.
+    // frame at a time. With one piece it may be null. `owners` is needed where the display has holes and for
+    // OutputKind::coverage and position, where each pixel must be its owner's; elsewhere it may be null.
     PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage, SceneLook look,
-                      const GlTexture* owners);
+                      const GpuOwners* owners);
 
     // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
     void record(const SceneView& view, const FramePass& pass = {});
@@ -35,7 +35,7 @@ private:
     const GpuScene& scene_;
     const GpuPieces& pieces_;
     Coverage* coverage_;  // null: one plain draw
-    const GlTexture* owners_;
+    const GpuOwners* owners_;
     ScenePrograms programs_;
     GlVertexArray emptyVertexArray_;
 };

@@ -57,7 +57,7 @@ struct PiecesKey {
 struct PreparedPieces {
     Certificate certificate;
     GpuPieces gpu;
-    GlTexture owners;
+    GpuOwners owners;
 };
 
 struct DrawKey {

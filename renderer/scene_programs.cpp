@@ -36,7 +36,8 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         };
         defineIf(path.pairs, "PAIRS");
         if (path.pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
-        defineIf(path.owned, "OWNED");
+        defineIf(path.right == PixelRight::owner, "OWNED");
+        defineIf(path.right == PixelRight::notHoles, "HOLES");
         defineIf(variant.lit, "LIT");
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");

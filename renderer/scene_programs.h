@@ -17,11 +17,18 @@ struct SceneLook {
     OutputKind output = OutputKind::color;
 };
 
+// Who may draw a pixel.
+enum class PixelRight {
+    all,       // every piece that reaches it
+    notHoles,  // nobody where it has no owner
+    owner,     // its owner alone: where each pixel must be covered once
+};
+
 // How the corners reach the shader.
 struct GeometryPath {
     bool pairs = false;  // (triangle, piece) pairs; otherwise one piece, plain vertices
     int clipPlanes = 0;
-    bool owned = false;  // only the owner of a pixel draws it: where each pixel must be covered once
+    PixelRight right = PixelRight::all;
 };
 
 // Only what the look reads is fetched: a flat material has no texture coordinates, depth has no normals.

@@ -11,7 +11,9 @@ layout(location = 2) in vec2 uv;
 #endif
 #ifdef OWNED
 layout(location = 3) flat in int ownPiece;
-layout(binding = 1) uniform isampler2D owners;  // the piece that owns each pixel
+#endif
+#if defined(OWNED) || defined(HOLES)
+layout(binding = 1) uniform isampler2D owners;  // the piece that owns each pixel, -1 in holes
 #endif
 
 #ifdef TEXTURED
@@ -28,6 +30,9 @@ layout(location = 0) out vec4 result;
 void main() {
 #ifdef OWNED
     if (texelFetch(owners, ivec2(gl_FragCoord.xy), 0).r != ownPiece) discard;
+#endif
+#ifdef HOLES
+    if (texelFetch(owners, ivec2(gl_FragCoord.xy), 0).r < 0) discard;
 #endif
 #ifdef CHECK_FACING
     bool behind = gl_FrontFacing == frontIsClockwise;
