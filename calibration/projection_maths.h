@@ -15,6 +15,7 @@ using glm::abs, glm::acos, glm::asin, glm::atan, glm::cos, glm::cross, glm::dot,
     glm::max, glm::min, glm::mix, glm::normalize, glm::sin, glm::sqrt, glm::tan;
 
 #define SHARED_FN inline
+#include "shaders/projections/bilinear.glsl"
 #include "shaders/projections/cylinder.glsl"
 #undef SHARED_FN
 

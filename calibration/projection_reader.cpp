@@ -1,11 +1,13 @@
 #include "calibration/projection_reader.h"
 
 #include "calibration/cylinder.h"
+#include "calibration/grid_reader.h"
 #include "calibration/planar.h"
 #include "calibration/projection_fields.h"
 
 #include <glm/trigonometric.hpp>
 
+#include <functional>
 #include <map>
 
 namespace curvewall {
@@ -29,19 +31,19 @@ ProjectionPtr readCylinder(JsonFields& fields, const ProjectionContext& context)
     return std::make_shared<CylinderProjection>(cylinder, context.eyeM, context.sizePx);
 }
 
-using ReadType = ProjectionPtr (*)(JsonFields& fields, const ProjectionContext& context);
+using ReadType = std::function<ReadProjection(JsonFields& fields, const ProjectionContext& context)>;
 
 const std::map<std::string, ReadType>& readers() {
     static const std::map<std::string, ReadType> kReaders{
-        {"cylinder", readCylinder},
-        {"planar", readPlanar},
+        {"camera_texture", readCameraTexture}, {"cylinder", readCylinder},  {"planar", readPlanar},
+        {"surface_map", readSurfaceMap},       {"warp_mesh", readWarpMesh},
     };
     return kReaders;
 }
 
 }  // namespace
 
-ProjectionPtr readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context) {
+ReadProjection readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context) {
     const auto reader = readers().find(type);
     if (reader != readers().end()) return reader->second(fields, context);
     std::string names;

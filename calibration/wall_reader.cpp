@@ -32,8 +32,10 @@ Display readDisplay(JsonFields& fields, const std::filesystem::path& folder, glm
     JsonFields projection = fields.required("projection", fields.object("projection"));
     display.projectionType = readName(projection, "type");
     try {
-        display.projection =
+        ReadProjection read =
             readProjection(projection, display.projectionType, {folder, eyeM, display.sizePx});
+        display.projection = std::move(read.projection);
+        multiplyPicture(display.blend, read.intensity);
     } catch (const UsageError& error) {
         throw FieldError(FieldError::Kind::value, fields.nameOf("projection"),
                          "a screen that the eye can see", error.what());
