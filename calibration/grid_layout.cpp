@@ -11,29 +11,29 @@ struct Candidate {
     double fraction;
 };
 
-// The cell at coordinate g, and its neighbour where g is on their border to rounding; the second cell is
-// negative where there is none, the first one outside the grid.
+// The cell at a coordinate, and its neighbour where that lies on their border; the second cell is negative
+// where there is none, the first one outside the grid.
 struct Candidates {
     Candidate first{-1, 0};
     Candidate second{-1, 0};
 };
 
-// g counts cells; border cells of a map of centers are half as wide as the others and g counts them from
-// -1/2.
-Candidates candidatesAt(double g, int cells, int border) {
-    constexpr double kOnBorder = 1e-9;
+// g counts cells; border cells of a map of centers are half as wide as the others and g begins with -1/2.
+// What lies within `rounding` of a border lies on it.
+Candidates candidatesAt(double g, double rounding, int cells, int border) {
     const double least = -0.5 * border, most = cells - 1.5 * border;
-    if (!(g >= least - kOnBorder && g <= most + kOnBorder)) return {};
+    if (!(g >= least - rounding && g <= most + rounding)) return {};
     const auto cellAt = [&](double coordinate) {
         return std::clamp(static_cast<int>(std::floor(coordinate)) + border, 0, cells - 1);
     };
     const auto candidate = [&](int cell) -> Candidate {
         const double begin = std::max(least, static_cast<double>(cell - border));
         const double end = std::min(most, static_cast<double>(cell - border + 1));
-        return {cell, (g - begin) / (end - begin)};
+        return {cell, std::clamp((g - begin) / (end - begin), 0.0, 1.0)};
     };
-    const int cell = cellAt(g), below = cellAt(g - kOnBorder), above = cellAt(g + kOnBorder);
-    Candidates found{candidate(cell), {}};
+    const int cell = cellAt(g), below = cellAt(g - rounding), above = cellAt(g + rounding);
+    Candidates found;
+    found.first = candidate(cell);
     if (below != above) found.second = candidate(below == cell ? above : below);
     return found;
 }
@@ -41,9 +41,10 @@ Candidates candidatesAt(double g, int cells, int border) {
 }  // namespace
 
 CellsAt GridLayout::cellsAt(glm::dvec2 px) const {
-    const glm::dvec2 g =
-        border_ == 0 ? px / sizePx_ * glm::dvec2(nodes_ - 1) : px / sizePx_ * glm::dvec2(nodes_) - 0.5;
-    const Candidates x = candidatesAt(g.x, cells().x, border_), y = candidatesAt(g.y, cells().y, border_);
+    constexpr double kRoundingPx = 1e-7;  // a tenth of what a position must come back to
+    const glm::dvec2 g = px / cellPx_ - 0.5 * border_, rounding = kRoundingPx / cellPx_;
+    const Candidates x = candidatesAt(g.x, rounding.x, cells().x, border_);
+    const Candidates y = candidatesAt(g.y, rounding.y, cells().y, border_);
     CellsAt found;
     for (const Candidate& row : {y.first, y.second})
         for (const Candidate& column : {x.first, x.second})

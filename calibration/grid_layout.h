@@ -52,6 +52,9 @@ public:
         return glm::clamp((glm::dvec2(line) - 0.5 * border_) * cellPx_, glm::dvec2(0), sizePx_);
     }
 
+    // How far beyond the nearest node a line lies; zero where the node is on it.
+    glm::dvec2 beyondNodePx(glm::ivec2 line) const { return linePx(line) - linePx(nodeAt(line) + border_); }
+
     glm::dvec2 positionPx(const CellPosition& p) const {
         return glm::mix(linePx(p.cell), linePx(p.cell + 1), p.st);
     }

@@ -34,7 +34,7 @@ glm::dvec2 GridMap::node(glm::ivec2 line) const {
     const float* number =
         numbers_.at(sample.x, meaning_.bottomRowFirst ? numbers_.sizePx.y - 1 - sample.y : sample.y);
     glm::dvec2 value = meaning_.gain * glm::dvec2(number[0], number[1]) + meaning_.bias;
-    if (meaning_.isOffset) value += layout_.linePx(line);
+    value += meaning_.isOffset ? layout_.linePx(line) : layout_.beyondNodePx(line);
     if (std::abs(value.x) <= kFarthestPx && std::abs(value.y) <= kFarthestPx) return value;
     return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
 }

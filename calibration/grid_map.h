@@ -37,8 +37,8 @@ public:
     bool hasSamples() const { return hasSamples_; }
     bool hasArea() const { return hasArea_; }  // at least one cell is no hole
 
-    // The value at a position; nothing in holes and outside the rectangle. With `centers` an offset continues
-    // as it is from the outermost nodes to the border, as in a clamped texture.
+    // The value at a position; nothing in holes and outside the rectangle. With `centers` the
+    // offset continues as it is from the outermost nodes to the border, as in a clamped texture.
     std::optional<glm::dvec2> at(glm::dvec2 px) const;
 
     // Every position with the value.

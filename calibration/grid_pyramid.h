@@ -108,7 +108,6 @@ public:
                 readRow(rows[static_cast<size_t>(i)], y * kBlock + i);
                 visitRow(rows[static_cast<size_t>(i) - 1], rows[static_cast<size_t>(i)], visitCell);
             }
-            if (height < kBlock) std::swap(rows[static_cast<size_t>(height)], rows.back());
             for (int x = 0; x < blocks.x; ++x) {
                 const int width = std::min(kBlock, cells.x - x * kBlock);
                 levels_.back().set({x, y},
