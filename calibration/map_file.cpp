@@ -1,9 +1,12 @@
 #include "calibration/map_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/exr_file.h"
 #include "calibration/pfm_file.h"
 
 #include <OpenImageIO/imageio.h>
+
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -14,6 +17,7 @@ constexpr int kMaxChannels = 4;
 
 NumberMap readNumberMap(const std::string& path) {
     if (isPfm(path)) return readPfm(path);
+    if (auto map = readPlainExr(path)) return std::move(*map);
     const auto fail = [&path](const std::string& found) {
         return InputError(path, "", "a readable image", found);
     };
