@@ -99,6 +99,7 @@ std::optional<std::vector<size_t>> placesOf(const exr_attr_chlist_t& channels) {
         ranks.push_back(rank);
     }
     std::vector<size_t> places;
+    places.reserve(ranks.size());
     for (const size_t rank : ranks)
         places.push_back(
             static_cast<size_t>(std::ranges::count_if(ranks, [&](size_t r) { return r < rank; })));

@@ -111,7 +111,7 @@ public:
             for (int x = 0; x < blocks.x; ++x) {
                 const int width = std::min(kBlock, cells.x - x * kBlock);
                 levels_.back().set({x, y},
-                                   boxOf(rows, static_cast<size_t>(x * kBlock), {width, height}, slack));
+                                   boxOf(rows, static_cast<size_t>(x) * kBlock, {width, height}, slack));
             }
         }
         while (levels_.back().tiles.size() > 1) levels_.push_back(parentsOf(levels_.back()));
@@ -133,7 +133,8 @@ private:
 
         void set(glm::ivec2 place, const ValueBox<N>& box) {
             const glm::ivec2 within = place % kSide;
-            tiles[index(place / kSide)].set(static_cast<size_t>(within.y * kSide + within.x), box);
+            tiles[index(place / kSide)].set(
+                static_cast<size_t>(within.y) * kSide + static_cast<size_t>(within.x), box);
         }
         const Tile& at(glm::ivec2 tile) const { return tiles[index(tile)]; }
         size_t index(glm::ivec2 tile) const {
@@ -191,21 +192,21 @@ private:
     std::vector<Level> levels_;  // blocks first, one tile last
 };
 
-// Calls found(CellPosition, cell) for every point of the block that has the value to within `slack`, for
-// nodes in a plane.
+// Calls found(cell, st, corners' blend) for every point of the block that has the value to within `slack`,
+// for nodes in a plane.
 template <class Node, class Found>
 void solveBlock(const CellBlock& block, glm::dvec2 value, double slack, const Node& node,
                 const Found& found) {
-    constexpr int kSide = GridPyramid<2>::kBlock + 1;
-    std::array<glm::dvec2, static_cast<size_t>(kSide * kSide)> nodes;
-    const glm::ivec2 count = block.end - block.begin;
-    for (int y = 0; y <= count.y; ++y)
-        for (int x = 0; x <= count.x; ++x)
-            nodes[static_cast<size_t>(y * kSide + x)] = node(block.begin + glm::ivec2(x, y));
-    for (int y = 0; y < count.y; ++y)
-        for (int x = 0; x < count.x; ++x) {
-            const glm::dvec2* corner = &nodes[static_cast<size_t>(y * kSide + x)];
-            const glm::dvec2 v00 = corner[0], v10 = corner[1], v01 = corner[kSide], v11 = corner[kSide + 1];
+    constexpr size_t kLines = GridPyramid<2>::kBlock + 1;
+    std::array<std::array<glm::dvec2, kLines>, kLines> nodes;
+    const auto columns = static_cast<size_t>(block.end.x - block.begin.x);
+    const auto rows = static_cast<size_t>(block.end.y - block.begin.y);
+    for (size_t y = 0; y <= rows; ++y)
+        for (size_t x = 0; x <= columns; ++x) nodes[y][x] = node(block.begin + glm::ivec2(x, y));
+    for (size_t y = 0; y < rows; ++y)
+        for (size_t x = 0; x < columns; ++x) {
+            const glm::dvec2 v00 = nodes[y][x], v10 = nodes[y][x + 1];
+            const glm::dvec2 v01 = nodes[y + 1][x], v11 = nodes[y + 1][x + 1];
             const glm::dvec2 low = glm::min(glm::min(v00, v10), glm::min(v01, v11));
             const glm::dvec2 high = glm::max(glm::max(v00, v10), glm::max(v01, v11));
             if (glm::any(glm::lessThan(value, low - slack)) ||
