@@ -182,15 +182,19 @@ std::optional<std::vector<int64_t>> JsonFields::wholeNumbers(const char* key, si
 }
 
 std::vector<JsonFields> JsonFields::objects(const char* key) {
+    std::vector<JsonFields> objects;
+    for (const json& value : list(key)) objects.emplace_back(value, placeOf(nameOf(key), objects.size()));
+    return objects;
+}
+
+const json& JsonFields::list(const char* key) {
     const json* list = find(key);
     if (!list || !list->is_array() || list->empty())
         throw FieldError(FieldError::Kind::shape, nameOf(key), "a list with one entry at least",
                          !list              ? "nothing"
                          : list->is_array() ? "none"
                                             : describe(*list));
-    std::vector<JsonFields> objects;
-    for (const json& value : *list) objects.emplace_back(value, placeOf(nameOf(key), objects.size()));
-    return objects;
+    return *list;
 }
 
 std::optional<JsonFields> JsonFields::object(const char* key) {

@@ -1,17 +1,19 @@
 #include "calibration/map_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/exr_file.h"
+#include "calibration/pfm_file.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <cstdint>
 #include <stdexcept>
 
+#include <utility>
+
 namespace curvewall {
 namespace {
 
-// A damaged header must not make us ask for all memory there is. 16,384 x 16,384 passes.
-constexpr int64_t kMaxTexels = int64_t{1} << 28;
 constexpr int kMaxChannels = 4;
 // Three times as fast as zlib's default of 6, for files a few per cent larger.
 constexpr int kPngCompressionLevel = 4;
@@ -19,6 +21,8 @@ constexpr int kPngCompressionLevel = 4;
 }  // namespace
 
 NumberMap readNumberMap(const std::string& path) {
+    if (isPfm(path)) return readPfm(path);
+    if (auto map = readPlainExr(path)) return std::move(*map);
     const auto fail = [&path](const std::string& found) {
         return InputError(path, "", "a readable image", found);
     };
@@ -27,7 +31,8 @@ NumberMap readNumberMap(const std::string& path) {
     const auto in = OIIO::ImageInput::open(path, &options);
     if (!in) throw fail(OIIO::geterror());
     const OIIO::ImageSpec& spec = in->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || int64_t{spec.width} * spec.height > kMaxTexels)
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 ||
+        int64_t{spec.width} * spec.height > kMaxMapTexels)
         throw fail("one of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
     if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
         throw fail("one of " + std::to_string(spec.nchannels) + " channels");

@@ -3,10 +3,14 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace curvewall {
+
+// A damaged header must not make us ask for all memory there is. 16,384 x 16,384 passes.
+inline constexpr int64_t kMaxMapTexels = int64_t{1} << 28;
 
 struct NumberMap {
     glm::ivec2 sizePx{0};
@@ -20,8 +24,8 @@ struct NumberMap {
     }
 };
 
-// Every format that OpenImageIO reads. Numbers are not touched: no transfer function, no alpha multiplied in.
-// Throws InputError.
+// PFM, and every format that OpenImageIO reads. Numbers are not touched: no transfer function, no alpha
+// multiplied in. Throws InputError.
 NumberMap readNumberMap(const std::string& path);
 
 // One or three channels of numbers from 0 to 1 as a 16-bit PNG, likewise untouched. Throws std::runtime_error

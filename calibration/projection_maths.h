@@ -19,6 +19,7 @@ using glm::abs, glm::acos, glm::asin, glm::atan, glm::cos, glm::cross, glm::dot,
 #define SHARED_FN inline
 #include "shaders/projections/root_ahead.glsl"
 // What is above is needed by what is below.
+#include "shaders/projections/bilinear.glsl"
 #include "shaders/projections/cylinder.glsl"
 #include "shaders/projections/equirectangular.glsl"
 #include "shaders/projections/pinhole.glsl"

@@ -1,6 +1,7 @@
 #include "calibration/projection_reader.h"
 
 #include "calibration/cylinder.h"
+#include "calibration/grid_reader.h"
 #include "calibration/lens_projection.h"
 #include "calibration/lens_reader.h"
 #include "calibration/planar.h"
@@ -8,6 +9,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -59,24 +61,27 @@ ProjectionPtr readThroughLens(JsonFields& fields, const ProjectionContext& conte
     return std::make_shared<LensProjection>(std::move(lens), pose.orientation);
 }
 
-using ReadType = ProjectionPtr (*)(JsonFields& fields, const ProjectionContext& context);
+using ReadType = std::function<ReadProjection(JsonFields& fields, const ProjectionContext& context)>;
 
 const std::map<std::string, ReadType>& readers() {
     static const std::map<std::string, ReadType> kReaders{
         {"camera", readThroughLens<readCameraLens>},
+        {"camera_texture", readCameraTexture},
         {"curvilinear", readThroughLens<readCurvilinearLens>},
         {"cylinder", readCylinder},
         {"equirectangular", readThroughLens<readEquirectangularLens>},
         {"planar", readPlanar},
         {"radial", readThroughLens<readRadialLens>},
         {"sphere_slices", readThroughLens<readSphereSlicesLens>},
+        {"surface_map", readSurfaceMap},
+        {"warp_mesh", readWarpMesh},
     };
     return kReaders;
 }
 
 }  // namespace
 
-ProjectionPtr readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context) {
+ReadProjection readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context) {
     const auto reader = readers().find(type);
     if (reader != readers().end()) return reader->second(fields, context);
     std::string names;

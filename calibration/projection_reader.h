@@ -8,7 +8,10 @@
 #include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace curvewall {
 
@@ -19,8 +22,19 @@ struct ProjectionContext {
     glm::ivec2 sizePx{0};          // of the display
 };
 
+// What a file says of a display beside its blend. Most types have a projection and nothing else.
+struct ReadProjection {
+    ReadProjection() = default;
+    template <class Type>
+    ReadProjection(std::shared_ptr<Type> read, std::vector<float> factors = {})
+        : projection(std::move(read)), intensity(std::move(factors)) {}
+
+    ProjectionPtr projection;
+    std::vector<float> intensity;  // multiplies the picture, a factor a pixel in linear light; empty: one
+};
+
 // Reads the keys of `type` and leaves unknown ones to the caller. Throws FieldError, InputError for a file
 // that the object names, and UsageError for a display that the eye cannot see.
-ProjectionPtr readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context);
+ReadProjection readProjection(JsonFields& fields, const std::string& type, const ProjectionContext& context);
 
 }  // namespace curvewall

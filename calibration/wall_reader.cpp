@@ -32,16 +32,18 @@ Display readDisplay(JsonFields& fields, const std::filesystem::path& folder, glm
 
     JsonFields projection = fields.required("projection", fields.object("projection"));
     display.projectionType = readName(projection, "type");
+    ReadProjection read;
     try {
-        display.projection =
-            readProjection(projection, display.projectionType, {folder, eyeM, display.sizePx});
+        read = readProjection(projection, display.projectionType, {folder, eyeM, display.sizePx});
     } catch (const UsageError& error) {
         throw FieldError(FieldError::Kind::value, fields.nameOf("projection"),
                          "a screen that the eye can see", error.what());
     }
     projection.refuseUnknownKeys();
+    display.projection = std::move(read.projection);
     BlendMaps blend;
     if (auto blendFields = fields.object("blend")) blend = readBlend(*blendFields, folder, display.sizePx);
+    multiplyPicture(blend, read.intensity);
     if (!blend.empty()) display.blend = std::make_shared<const BlendMaps>(std::move(blend));
     fields.refuseUnknownKeys();
     return display;
