@@ -3,6 +3,8 @@
 #include "calibration/errors.h"
 #include "calibration/piece_drawing.h"
 #include "calibration/piece_fit.h"
+#include "calibration/ray_image.h"
+#include "calibration/stopwatch.h"
 #include "calibration/wall_reader.h"
 #include "cli/blend_mask_files.h"
 #include "cli/camera_option.h"
@@ -19,7 +21,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -57,8 +58,8 @@ void printReport(const Display& display, double tolerancePx, const FittedPieces&
     const Certificate& c = fitted.certificate;
     fmt::print("{}: {} x {} px, {}\n", display.name, display.sizePx.x, display.sizePx.y,
                display.projectionType);
-    fmt::print("  {} pieces for a tolerance of {} px, fitted in {:.0f} ms\n", fitted.mesh.pieces.size(),
-               tolerancePx, fitted.fitMs);
+    fmt::print("  {} pieces for a tolerance of {} px, fitted in {:.0f} ms, certified in {:.0f} ms\n",
+               fitted.mesh.pieces.size(), tolerancePx, fitted.fitMs, fitted.certifyMs);
     fmt::print(
         "  geometric error over every pixel: {:.4f} px at most (at {}, {}), 99 % below {:.4f}, mean {:.4f}\n",
         c.maxPx, c.maxAt.x, c.maxAt.y, c.p99Px, c.meanPx);
@@ -72,13 +73,10 @@ Frame errorFrame(const Display& display, const FittedPieces& fitted) {
 // The unit ray of every pixel centre, NaN in holes.
 Frame rayFrame(const Display& display) {
     Frame frame{display.sizePx, 3, {}};
-    for (int y = 0; y < display.sizePx.y; ++y) {
-        for (int x = 0; x < display.sizePx.x; ++x) {
-            const auto ray = display.projection->unproject({x + 0.5, y + 0.5});
-            const glm::dvec3 unit =
-                ray ? glm::normalize(*ray) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-            for (int i = 0; i < 3; ++i) frame.texels.push_back(static_cast<float>(unit[i]));
-        }
+    const RayImage rays(*display.projection, display.sizePx);
+    for (const glm::dvec3& ray : rays.all()) {
+        const glm::vec3 unit(glm::normalize(ray));
+        frame.texels.insert(frame.texels.end(), {unit.x, unit.y, unit.z});
     }
     return frame;
 }
@@ -101,10 +99,13 @@ void run(const InspectCommand& command) {
     if (!command.blend.empty() && !command.display.empty())
         throw UsageError(
             "--blend needs the whole wall: a mask depends on the displays around; leave out --display");
+    const Stopwatch loading;
     const Wall wall = wallOf(command);
+    const double loadMs = loading.ms();
     const std::vector<const Display*> displays = chosenDisplays(wall, command.display);
     if (!command.blend.empty()) makeFolder(command.blend);
-    json report = {{"wall", wall.name}, {"displays", json::array()}};
+    json report = {{"wall", wall.name}, {"load_ms", loadMs}, {"displays", json::array()}};
+    if (!command.asJson) fmt::print("{}: loaded in {:.0f} ms\n", wall.name, loadMs);
     for (const Display* display : displays) {
         const auto path = [&](const std::string& option) {
             return pathForDisplay(option, display->name, displays.size() > 1);
