@@ -208,21 +208,38 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
     if (hasHoles(cell, pixels) || std::min(cell.sizePx().x, cell.sizePx().y) == 1)
         around = pixelsAround(rays, cell);
     facets.corners = bestPlane(rays, cell, pixels, around);
-    facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
-                         ? kInfinity
-                         : facetErrorPx(rays, cell, facets.corners, true, pixels);
+    const auto errorPx = [&] {
+        if (isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)) return kInfinity;
+        return facetErrorPx(rays, cell, facets.corners, true, pixels);
+    };
+    facets.errorPx = errorPx();
+    if (std::isinf(facets.errorPx) && cell.sizePx() == glm::ivec2(1)) {
+        // Nothing around it goes with this pixel: a plane across its ray shows it.
+        const FlatModel alone = flatModelOf(rays, pixels);
+        for (size_t i = 0; i < 4; ++i) facets.corners[i] = alone.at(cornersOf(cell)[i]);
+        facets.errorPx = facetErrorPx(rays, cell, facets.corners, true, pixels);
+    }
     return facets;
 }
 
-CellCut bestCut(const RayImage& rays, const Cell& cell) {
-    CellCut best{-1, kInfinity};
+int bestCut(const RayImage& rays, const Cell& cell) {
+    // The error falls with the square of a cell's size, so its root says how many cells are still to come.
+    constexpr double kLargestErrorPx = 1e4;
+    const auto cellsToCome = [&](const Cell& half) {
+        return std::sqrt(std::min(facetsOf(rays, half).errorPx, kLargestErrorPx));
+    };
+    int best = -1;
+    double fewest = kInfinity;
     const glm::ivec2 size = cell.sizePx();
     const int longer = size.x >= size.y ? 0 : 1;
     for (int axis : {longer, 1 - longer}) {
         if (size[axis] < 2) continue;
         const auto [first, second] = halvesOf(cell, axis);
-        const double worst = std::max(facetsOf(rays, first).errorPx, facetsOf(rays, second).errorPx);
-        if (best.axis < 0 || worst < best.errorPx) best = {axis, worst};
+        const double cells = cellsToCome(first) + cellsToCome(second);
+        if (cells < fewest) {
+            best = axis;
+            fewest = cells;
+        }
     }
     return best;
 }

@@ -37,11 +37,7 @@ double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm
 
 CellFacets facetsOf(const RayImage& rays, const Cell& cell);
 
-// The axis across which a cut leaves the smaller error, and that error. -1 for a cell of one pixel.
-struct CellCut {
-    int axis = -1;
-    double errorPx = 0;
-};
-CellCut bestCut(const RayImage& rays, const Cell& cell);
+// The axis across which a cut leaves the least to do, or -1 for a cell of one pixel.
+int bestCut(const RayImage& rays, const Cell& cell);
 
 }  // namespace curvewall

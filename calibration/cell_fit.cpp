@@ -61,7 +61,7 @@ private:
             if (display.facets[id].isEmpty) continue;
             const bool isGood = display.facets[id].errorPx <= errorPx;
             if (!isGood) {
-                if (const int axis = bestCut(rays_, display.tree.cell(id)).axis; axis >= 0) {
+                if (const int axis = bestCut(rays_, display.tree.cell(id)); axis >= 0) {
                     display.tree.cut(id, axis);
                     continue;
                 }
@@ -125,7 +125,7 @@ private:
     // Cuts a cell. One that would meet the tolerance alone, as one of a single pixel does, lets go of its
     // neighbours instead.
     void refine(CutDisplay& display, uint32_t id) {
-        const int axis = bestCut(rays_, display.tree.cell(id)).axis;
+        const int axis = bestCut(rays_, display.tree.cell(id));
         if (axis < 0 || (isGoodAlone(display, id) && !loose_.contains(id))) {
             if (!loose_.insert(id).second) refuseTolerance(tolerancePx_);
             return;
