@@ -4,6 +4,7 @@
 
 #include "calibration/cylinder.h"
 #include "calibration/planar.h"
+#include "tests/support/blend_sum.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/test_projections.h"
 #include "tests/support/test_walls.h"
@@ -17,47 +18,7 @@
 namespace curvewall {
 namespace {
 
-float valueAt(const BlendMask& mask, glm::ivec2 sizePx, int x, int y) {
-    x = std::clamp(x, 0, sizePx.x - 1);
-    y = std::clamp(y, 0, sizePx.y - 1);
-    return mask.values[static_cast<size_t>(y) * static_cast<size_t>(sizePx.x) + static_cast<size_t>(x)];
-}
-
-double bilinear(const BlendMask& mask, glm::ivec2 sizePx, glm::dvec2 px) {
-    const int x = static_cast<int>(std::floor(px.x - 0.5)), y = static_cast<int>(std::floor(px.y - 0.5));
-    const double fx = px.x - 0.5 - x, fy = px.y - 0.5 - y;
-    return (1 - fx) * (1 - fy) * valueAt(mask, sizePx, x, y) +
-           fx * (1 - fy) * valueAt(mask, sizePx, x + 1, y) + (1 - fx) * fy * valueAt(mask, sizePx, x, y + 1) +
-           fx * fy * valueAt(mask, sizePx, x + 1, y + 1);
-}
-
-// Positive inside.
-double distanceToBorderPx(glm::ivec2 sizePx, glm::dvec2 px) {
-    const glm::dvec2 inside = glm::min(px, glm::dvec2(sizePx) - px);
-    if (inside.x >= 0 && inside.y >= 0) return std::min(inside.x, inside.y);
-    return -glm::length(glm::max(-inside, glm::dvec2(0)));
-}
-
-struct Sum {
-    double light = 0;
-    int displays = 0;     // that show the ray
-    int bordersNear = 0;  // displays with their border within 12 px
-};
-
-Sum sumOn(const Wall& wall, const BlendMasks& masks, glm::dvec3 ray) {
-    Sum sum;
-    for (size_t i = 0; i < wall.displays.size(); ++i) {
-        const Display& display = wall.displays[i];
-        for (const glm::dvec2 px : display.projection->project(ray)) {
-            const double distance = distanceToBorderPx(display.sizePx, px);
-            sum.bordersNear += std::abs(distance) < 12;
-            if (distance < 0) continue;
-            ++sum.displays;
-            sum.light += bilinear(masks.displays[i], display.sizePx, px);
-        }
-    }
-    return sum;
-}
+using test::bilinear, test::BlendedLight, test::blendedLight, test::distanceToBorderPx, test::maskAt;
 
 Display planarDisplay(test::Random& random, std::string name) {
     const Orientation turn{random.uniform(-0.6, 0.6), random.uniform(-0.3, 0.3), random.uniform(-0.5, 0.5)};
@@ -113,8 +74,8 @@ TEST(BlendMasks, SumToOneOnEveryRayThatTheWallShows) {
         constexpr int kRays = 20000;
         for (int i = 0; i < kRays; ++i) {
             const Display& display = wall.displays[static_cast<size_t>(i) % wall.displays.size()];
-            const Sum sum =
-                sumOn(wall, masks, *display.projection->unproject(randomPosition(random, display.sizePx)));
+            const BlendedLight sum = blendedLight(
+                wall, masks, *display.projection->unproject(randomPosition(random, display.sizePx)));
             overlapping += sum.displays > 1;
             nearBorder += sum.bordersNear == 1;
             off += std::abs(sum.light - 1) > 0.01;
@@ -147,7 +108,7 @@ TEST(BlendMasks, FallToZeroAtABorderInsideAnotherDisplayAndStayOneWhereTheyAreAl
                             if (k != i)
                                 deepest =
                                     std::max(deepest, distanceToBorderPx(wall.displays[k].sizePx, there));
-                    const float value = valueAt(masks.displays[i], display.sizePx, x, y);
+                    const float value = maskAt(masks.displays[i], display.sizePx, x, y);
                     if (deepest < 0) {
                         ASSERT_EQ(value, 1) << round << ": " << x << ", " << y;
                         ++alone;
@@ -167,8 +128,8 @@ double largestStep(const BlendMask& mask, glm::ivec2 sizePx) {
     double largest = 0;
     for (int y = 0; y < sizePx.y; ++y)
         for (int x = 0; x + 1 < sizePx.x; ++x)
-            largest = std::max<double>(
-                largest, std::abs(valueAt(mask, sizePx, x, y) - valueAt(mask, sizePx, x + 1, y)));
+            largest = std::max<double>(largest,
+                                       std::abs(maskAt(mask, sizePx, x, y) - maskAt(mask, sizePx, x + 1, y)));
     return largest;
 }
 
@@ -191,10 +152,8 @@ TEST(BlendMasks, ScreensThatEndAtTheSameLineAboveAndBelowAreRampedSideways) {
     const glm::ivec2 size(300, 200);
     for (int x = 0; x < 300; ++x)
         for (int y = 0; y < 200; ++y)
-            EXPECT_NEAR(valueAt(masks.displays[0], size, x, y), valueAt(masks.displays[0], size, x, 100),
-                        1e-4);
-    EXPECT_NEAR(valueAt(masks.displays[0], size, 249, 0) + valueAt(masks.displays[0], size, 250, 0), 1,
-                0.002);
+            EXPECT_NEAR(maskAt(masks.displays[0], size, x, y), maskAt(masks.displays[0], size, x, 100), 1e-4);
+    EXPECT_NEAR(maskAt(masks.displays[0], size, 249, 0) + maskAt(masks.displays[0], size, 250, 0), 1, 0.002);
     EXPECT_LT(largestStep(masks.displays[0], size), 2.5 / 100);
     EXPECT_NEAR(masks.displays[0].overlapShare, 1.0 / 3, 1e-9);
     EXPECT_LT(masks.sum.largestDeviation, 3.0 / 65535);
@@ -227,8 +186,8 @@ TEST(BlendMasks, APixelsWorthOfViewCountsAndNotTheNumberOfPixels) {
         PlanarScreen{{-0.5, -1, -2}, {2.5, -1, -2}, {-0.5, 1, -2}}, glm::dvec3(0), glm::ivec2(900, 600));
     const BlendMasks masks = makeBlendMasks(wall), even = makeBlendMasks(twoScreens(100));
     for (int x = 0; x < 300; ++x)
-        EXPECT_NEAR(valueAt(masks.displays[0], {300, 200}, x, 90),
-                    valueAt(even.displays[0], {300, 200}, x, 90), 0.02);
+        EXPECT_NEAR(maskAt(masks.displays[0], {300, 200}, x, 90), maskAt(even.displays[0], {300, 200}, x, 90),
+                    0.02);
 }
 
 // A screen that shows nothing within a disc, or nothing outside of it.
@@ -263,10 +222,10 @@ TEST(BlendMasks, HolesWithinAnotherDisplayAreFilledByIt) {
     wall.displays.push_back({"holed", size, "test", std::make_shared<Holed>(size, 200, 40, false)});
     wall.displays.push_back({"full", size, "test", std::make_shared<PinholeProjection>(size, 200)});
     const BlendMasks masks = makeBlendMasks(wall);
-    EXPECT_EQ(valueAt(masks.displays[0], size, 150, 100), 0);
-    EXPECT_EQ(valueAt(masks.displays[1], size, 150, 100), 1);
-    EXPECT_LT(valueAt(masks.displays[0], size, 191, 100), 0.01);  // beside the hole
-    EXPECT_GT(valueAt(masks.displays[1], size, 191, 100), 0.99);
+    EXPECT_EQ(maskAt(masks.displays[0], size, 150, 100), 0);
+    EXPECT_EQ(maskAt(masks.displays[1], size, 150, 100), 1);
+    EXPECT_LT(maskAt(masks.displays[0], size, 191, 100), 0.01);  // beside the hole
+    EXPECT_GT(maskAt(masks.displays[1], size, 191, 100), 0.99);
     EXPECT_LT(masks.sum.largestDeviation, 0.01);
 }
 
@@ -281,8 +240,8 @@ TEST(BlendMasks, ADiscThatOverlapsFallsToZeroAlongItsEdge) {
         const glm::dvec2 px = glm::dvec2(150, 100) + 88.5 * glm::dvec2(std::cos(angle), std::sin(angle));
         EXPECT_LT(bilinear(masks.displays[0], size, px), 0.01);
     }
-    EXPECT_EQ(valueAt(masks.displays[0], size, 2, 2), 0);
-    EXPECT_EQ(valueAt(masks.displays[1], size, 2, 2), 1);
+    EXPECT_EQ(maskAt(masks.displays[0], size, 2, 2), 0);
+    EXPECT_EQ(maskAt(masks.displays[1], size, 2, 2), 1);
 }
 
 TEST(BlendMasks, AreTheSameEveryTime) {
@@ -303,7 +262,7 @@ TEST(BlendMasks, ReportWhatTheTestFindsAtPixelCentres) {
         for (int y = 0; y < display.sizePx.y; ++y)
             for (int x = 0; x < display.sizePx.x; ++x) {
                 const double deviation = std::abs(
-                    sumOn(wall, masks, *display.projection->unproject({x + 0.5, y + 0.5})).light - 1);
+                    blendedLight(wall, masks, *display.projection->unproject({x + 0.5, y + 0.5})).light - 1);
                 largest = std::max(largest, deviation);
                 off += deviation > 0.01;
                 ++pixels;
@@ -312,7 +271,7 @@ TEST(BlendMasks, ReportWhatTheTestFindsAtPixelCentres) {
     EXPECT_NEAR(masks.sum.shareOff, static_cast<double>(off) / static_cast<double>(pixels), 1e-5);
     const Display& worst = wall.displays[masks.sum.display];
     const auto ray = worst.projection->unproject(glm::dvec2(masks.sum.pixel) + 0.5);
-    EXPECT_NEAR(std::abs(sumOn(wall, masks, *ray).light - 1), largest, 1e-4);
+    EXPECT_NEAR(std::abs(blendedLight(wall, masks, *ray).light - 1), largest, 1e-4);
 }
 
 }  // namespace

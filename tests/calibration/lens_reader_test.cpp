@@ -3,12 +3,12 @@
 #include "calibration/errors.h"
 #include "calibration/wall_reader.h"
 #include "tests/support/round_trip.h"
+#include "tests/support/shipped_walls.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -143,14 +143,13 @@ TEST_F(LensReader, ErrorsNameTheFieldAndWhatWasExpected) {
 }
 
 TEST_F(LensReader, ShippedWallsComeBackPixelByPixel) {
-    for (const auto& entry : std::filesystem::directory_iterator(CURVEWALL_SOURCE_DIR "/configs")) {
-        if (entry.path().extension() != ".json" || entry.path().filename() == "daemon.json") continue;
-        for (const Display& display : readWall(entry.path().string()).displays) {
+    for (const std::string& name : test::shippedWallNames()) {
+        for (const Display& display : test::shippedWall(name).displays) {
             const auto result = test::roundTrip(
                 *display.projection, display.sizePx, 1, [](glm::dvec2) { return false; },
                 glm::dvec2(display.sizePx), 10'000);
-            EXPECT_LT(result.worstPx, 1e-6) << entry.path() << ' ' << display.name;
-            EXPECT_LT(result.holes, 2500) << entry.path() << ' ' << display.name;
+            EXPECT_LT(result.worstPx, 1e-6) << name << ' ' << display.name;
+            EXPECT_LT(result.holes, 2500) << name << ' ' << display.name;
         }
     }
 }
