@@ -2,6 +2,9 @@
 
 #include "calibration/piece_fit.h"
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +43,17 @@ std::vector<FacetSample> latticeSamples(const Projection& projection, const Piec
     return samples;
 }
 
+// A display all of whose pixels see one ray, or rays in one plane with the eye, has no facets of this kind.
+bool hasArea(const PieceGrid& grid) {
+    constexpr double kLeastShare = 1e-12;  // of the cube of the distance
+    return std::ranges::all_of(meshFromGrid(grid, true).pieces, [&](const Piece& piece) {
+        const auto m = [&](size_t i) { return grid.vertices[piece.vertices[i]].m; };
+        const double distance = glm::length(m(0));
+        return std::abs(glm::determinant(glm::dmat3(m(0), m(1), m(2)))) >
+               kLeastShare * distance * distance * distance;
+    });
+}
+
 }  // namespace
 
 bool unrolls(const Projection& projection, const RayImage& rays) {
@@ -54,7 +68,7 @@ bool unrolls(const Projection& projection, const RayImage& rays) {
             grid.vertices.push_back({*ray, px});
         }
     }
-    return isQuadGrid(grid);
+    return isQuadGrid(grid) && hasArea(grid);
 }
 
 QuadGridSearch::QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx)
