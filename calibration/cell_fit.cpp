@@ -19,8 +19,8 @@ constexpr double kGainOfBalance = 1.4;
 constexpr double kMostDisagreement = 8;
 // Where more cells than this fail, all of them should have been smaller.
 constexpr double kFewFailures = 0.1;
-// Halving makes cells of 1, 1/2, 1/4 ... of the first ones; these first counts put sizes between.
-constexpr std::array<int, 4> kFirstCounts{1, 3, 5, 7};
+// Halving one first cell makes cells of 1/2, 1/4 ... of the display; other first counts put sizes between.
+constexpr std::array<int, 3> kOtherFirstCounts{3, 5, 7};
 
 // A display cut into cells, each with its own best plane.
 struct CutDisplay {
@@ -51,48 +51,44 @@ public:
     }
 
 private:
-    CellFacets facetsAt(const Cell& cell) const { return facetsOf(rays_, cell); }
-
-    // Cuts cells until the own best plane of each is off by `errorPx` at most.
-    CutDisplay cutTo(double errorPx, glm::ivec2 firstCounts) const {
+    // Cuts cells until the own best plane of each is off by `errorPx` at most, or there are more than
+    // `mostPieces`.
+    CutDisplay cutTo(double errorPx, glm::ivec2 firstCounts, size_t mostPieces) const {
         CutDisplay display{CellTree(rays_.sizePx(), firstCounts), {}, 0};
-        for (uint32_t id = 0; id < display.tree.cellCount(); ++id) {
-            display.facets.push_back(facetsAt(display.tree.cell(id)));
-            if (display.facets[id].isEmpty) continue;
-            const bool isGood = display.facets[id].errorPx <= errorPx;
-            if (!isGood) {
-                if (const int axis = bestCut(rays_, display.tree.cell(id)); axis >= 0) {
-                    display.tree.cut(id, axis);
-                    continue;
-                }
-            }
-            display.pieceCount += 2;
-            if (display.pieceCount > kMostPieces) break;
+        for (uint32_t id = 0; id < display.tree.cellCount() && display.pieceCount <= mostPieces; ++id) {
+            const Cell cell = display.tree.cell(id);
+            const CellFacets& facets = display.facets.emplace_back(facetsOf(rays_, cell));
+            if (facets.isEmpty) continue;
+            const int axis = facets.errorPx <= errorPx ? -1 : bestCut(rays_, cell);
+            if (axis >= 0)
+                display.tree.cut(id, axis);
+            else
+                display.pieceCount += 2;
         }
         return display;
     }
 
     // The first counts that lead to the fewest pieces, for columns and then for rows.
     CutDisplay bestCuts(double errorPx) const {
-        std::optional<CutDisplay> best;
         glm::ivec2 counts(1);
+        CutDisplay best = cutTo(errorPx, counts, kMostPieces);
+        if (best.pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
         for (int axis : {0, 1}) {
-            std::array<std::optional<CutDisplay>, kFirstCounts.size()> tried;
-            parallelRanges(static_cast<int>(kFirstCounts.size()), [&](int begin, int end) {
+            std::array<std::optional<CutDisplay>, kOtherFirstCounts.size()> tried;
+            parallelRanges(static_cast<int>(tried.size()), [&](int begin, int end) {
                 for (int i = begin; i < end; ++i) {
                     glm::ivec2 first = counts;
-                    first[axis] = kFirstCounts[static_cast<size_t>(i)];
-                    tried[static_cast<size_t>(i)] = cutTo(errorPx, first);
+                    first[axis] = kOtherFirstCounts[static_cast<size_t>(i)];
+                    tried[static_cast<size_t>(i)] = cutTo(errorPx, first, best.pieceCount);
                 }
             });
             for (size_t i = 0; i < tried.size(); ++i) {
-                if (best && tried[i]->pieceCount >= best->pieceCount) continue;
-                best = std::move(tried[i]);
-                counts[axis] = kFirstCounts[i];
+                if (tried[i]->pieceCount >= best.pieceCount) continue;
+                best = std::move(*tried[i]);
+                counts[axis] = kOtherFirstCounts[i];
             }
         }
-        if (best->pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
-        return std::move(*best);
+        return best;
     }
 
     // Balances the facets. The answer is the cells that do not meet the tolerance.
@@ -134,7 +130,7 @@ private:
         display.pieceCount += 2;
         if (display.pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
         for (uint32_t half : {display.tree.cellCount() - 2, display.tree.cellCount() - 1})
-            display.facets.push_back(facetsAt(display.tree.cell(half)));
+            display.facets.push_back(facetsOf(rays_, display.tree.cell(half)));
     }
 
     const RayImage& rays_;
