@@ -1,8 +1,8 @@
 // What it takes to fit and to certify the pieces of a wall.
 
-#include "calibration/ownership.h"
-#include "calibration/piece_fit.h"
-#include "calibration/piece_tree.h"
+#include "calibration/pieces/ownership.h"
+#include "calibration/pieces/piece_fit.h"
+#include "calibration/pieces/piece_tree.h"
 #include "tests/support/test_walls.h"
 
 #include <benchmark/benchmark.h>

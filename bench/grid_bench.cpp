@@ -1,9 +1,9 @@
 // What measured maps cost: reading one, and a ray for a pixel.
 
-#include "calibration/camera_texture.h"
-#include "calibration/grid_reader.h"
-#include "calibration/json_file.h"
-#include "calibration/surface_map.h"
+#include "calibration/projections/camera_texture.h"
+#include "calibration/projections/surface_map.h"
+#include "calibration/readers/grid_reader.h"
+#include "calibration/readers/json_file.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/temporary_folder.h"
 

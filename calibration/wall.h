@@ -1,8 +1,8 @@
 #pragma once
 // One installation: its eye and its displays.
 
-#include "calibration/blend.h"
-#include "calibration/projection.h"
+#include "calibration/blending/blend.h"
+#include "calibration/projections/projection.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

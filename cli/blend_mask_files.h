@@ -1,7 +1,7 @@
 #pragma once
 // inspect --blend: the masks of a wall as files, and what is said about them.
 
-#include "calibration/blend_masks.h"
+#include "calibration/blending/blend_masks.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,7 +1,7 @@
 #include "cli/camera_option.h"
 
 #include "calibration/errors.h"
-#include "calibration/projection_fields.h"
+#include "calibration/readers/projection_fields.h"
 
 #include <glm/trigonometric.hpp>
 

@@ -1,11 +1,11 @@
 // curvewall inspect
 
 #include "calibration/errors.h"
-#include "calibration/piece_drawing.h"
-#include "calibration/piece_fit.h"
-#include "calibration/ray_image.h"
+#include "calibration/pieces/piece_drawing.h"
+#include "calibration/pieces/piece_fit.h"
+#include "calibration/pieces/ray_image.h"
+#include "calibration/readers/wall_reader.h"
 #include "calibration/stopwatch.h"
-#include "calibration/wall_reader.h"
 #include "cli/blend_mask_files.h"
 #include "cli/camera_option.h"
 #include "cli/commands.h"

@@ -1,7 +1,7 @@
 // curvewall render
 
 #include "calibration/errors.h"
-#include "calibration/wall_reader.h"
+#include "calibration/readers/wall_reader.h"
 #include "cli/camera_option.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"

@@ -2,7 +2,7 @@
 // The end of a raster frame: on a display with maps the picture is drawn in linear float, and one last pass
 // blends and encodes it. Without maps the picture's own target is the result and nothing is added.
 
-#include "calibration/blend.h"
+#include "calibration/blending/blend.h"
 #include "renderer/frame_target.h"
 #include "renderer/gl/program.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A display's maps over a finished picture.
 
-#include "calibration/blend.h"
+#include "calibration/blending/blend.h"
 #include "renderer/frame.h"
 
 #include <glm/glm.hpp>

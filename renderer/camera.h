@@ -1,7 +1,7 @@
 #pragma once
 // Where the wall stands in the scene: the pose of the wall's origin.
 
-#include "calibration/pose.h"
+#include "calibration/projections/pose.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>

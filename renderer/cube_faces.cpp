@@ -1,8 +1,8 @@
 #include "renderer/cube_faces.h"
 
-#include "calibration/ownership.h"
 #include "calibration/parallel.h"
-#include "calibration/ray_image.h"
+#include "calibration/pieces/ownership.h"
+#include "calibration/pieces/ray_image.h"
 #include "renderer/request_limits.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 // Cube map faces as one-piece meshes, and what a display needs of them. Face order and axes as OpenGL's
 // (specification 4.5, table 8.19), so that a face can be drawn straight into a cube map layer.
 
-#include "calibration/certificate.h"
+#include "calibration/pieces/certificate.h"
 #include "calibration/wall.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "renderer/gpu_pieces.h"
 
-#include "calibration/ownership.h"
-#include "calibration/piece_tree.h"
+#include "calibration/pieces/ownership.h"
+#include "calibration/pieces/piece_tree.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

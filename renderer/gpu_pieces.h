@@ -1,7 +1,7 @@
 #pragma once
 // A piece mesh in GPU memory, in the layouts of scene.vert and coverage.comp.
 
-#include "calibration/piece_mesh.h"
+#include "calibration/pieces/piece_mesh.h"
 #include "renderer/gl/gl_objects.h"
 
 namespace curvewall {
@@ -21,7 +21,7 @@ struct GpuPieces {
 
 GpuPieces uploadPieces(const PieceMesh& mesh);
 
-// The owner of every pixel; see calibration/ownership.h.
+// The owner of every pixel; see calibration/pieces/ownership.h.
 struct GpuOwners {
     GlTexture texture;  // R32I
     bool hasHoles = false;

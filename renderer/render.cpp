@@ -1,7 +1,7 @@
 #include "renderer/render.h"
 
 #include "calibration/errors.h"
-#include "calibration/piece_fit.h"
+#include "calibration/pieces/piece_fit.h"
 #include "calibration/stopwatch.h"
 #include "renderer/blended_target.h"
 #include "renderer/blending.h"

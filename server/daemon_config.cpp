@@ -1,6 +1,6 @@
 #include "server/daemon_config.h"
 
-#include "calibration/json_file.h"
+#include "calibration/readers/json_file.h"
 
 #include <boost/asio/ip/address.hpp>
 

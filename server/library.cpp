@@ -1,8 +1,8 @@
 #include "server/library.h"
 
 #include "calibration/errors.h"
-#include "calibration/json_fields.h"
-#include "calibration/wall_reader.h"
+#include "calibration/readers/json_fields.h"
+#include "calibration/readers/wall_reader.h"
 #include "renderer/scene/load_scene.h"
 
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 #include "server/render_api.h"
 
 #include "calibration/errors.h"
-#include "calibration/json_fields.h"
-#include "calibration/projection_fields.h"
+#include "calibration/readers/json_fields.h"
+#include "calibration/readers/projection_fields.h"
 #include "renderer/names.h"
 #include "renderer/request_limits.h"
 

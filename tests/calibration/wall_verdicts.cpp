@@ -2,7 +2,7 @@
 // names, the message empty where the file is a wall.
 
 #include "calibration/errors.h"
-#include "calibration/wall_reader.h"
+#include "calibration/readers/wall_reader.h"
 
 #include <algorithm>
 #include <filesystem>

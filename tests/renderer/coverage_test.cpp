@@ -1,6 +1,6 @@
 #include "renderer/coverage.h"
 
-#include "calibration/piece_fit.h"
+#include "calibration/pieces/piece_fit.h"
 #include "renderer/frame_target.h"
 #include "renderer/piecewise.h"
 #include "renderer/scene/load_scene.h"

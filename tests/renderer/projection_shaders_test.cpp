@@ -2,7 +2,7 @@
 // Inputs are single precision numbers, so that both start from the same ones; each bound says how much of the
 // difference single precision explains.
 
-#include "calibration/projection_maths.h"
+#include "calibration/projections/projection_maths.h"
 #include "renderer/gl/gl_objects.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/random_numbers.h"

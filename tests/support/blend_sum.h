@@ -1,7 +1,7 @@
 #pragma once
 // What blended displays show together on a ray, by their exact projections.
 
-#include "calibration/blend_masks.h"
+#include "calibration/blending/blend_masks.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 // Whether pixels come back: project(unproject(p)) is p.
 
-#include "calibration/lens_projection.h"
+#include "calibration/projections/lens_projection.h"
 #include "tests/support/random_numbers.h"
 
 #include <glm/common.hpp>

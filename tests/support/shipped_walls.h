@@ -1,7 +1,7 @@
 #pragma once
 // The wall files in configs/.
 
-#include "calibration/wall_reader.h"
+#include "calibration/readers/wall_reader.h"
 
 #include <algorithm>
 #include <filesystem>

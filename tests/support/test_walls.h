@@ -1,8 +1,8 @@
 #pragma once
 // Displays that many tests look at.
 
-#include "calibration/cylinder.h"
-#include "calibration/planar.h"
+#include "calibration/projections/cylinder.h"
+#include "calibration/projections/planar.h"
 #include "calibration/wall.h"
 
 #include <cmath>

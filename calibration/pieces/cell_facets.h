@@ -1,0 +1,43 @@
+#pragma once
+// One cell on its own: the facets that it would have if it had no neighbours, and how far they are off.
+
+#include "calibration/pieces/cell_tree.h"
+#include "calibration/pieces/piece_mesh.h"
+#include "calibration/pieces/ray_image.h"
+
+#include <array>
+#include <vector>
+
+namespace curvewall {
+
+// Corners of a cell: top left, top right, bottom right, bottom left.
+std::array<glm::ivec2, 4> cornersOf(const Cell& cell);
+
+// Corners of the two facets, the diagonal falling from the top left or rising from the bottom left.
+using FacetCorners = std::array<std::array<uint32_t, 3>, 2>;
+const FacetCorners& facetCorners(bool fallingDiagonal);
+
+// Which of the two facets has the pixel's centre.
+size_t facetAt(const Cell& cell, bool fallingDiagonal, glm::ivec2 px);
+
+// Pixels with a ray on a lattice of at most `perAxis` x `perAxis`, the cell's outermost pixels included.
+// Where the lattice finds none but the cell has some, the first of them.
+std::vector<glm::ivec2> latticePixels(const RayImage& rays, const Cell& cell, int perAxis);
+
+struct CellFacets {
+    std::array<glm::dvec3, 4> corners{};  // of the one plane that fits its pixels best
+    double errorPx = 0;                   // over a lattice of pixels
+    int pixelCount = 0;                   // of that lattice
+    bool isEmpty = false;                 // no pixel of the cell has a ray
+};
+
+// The larger error of a cell's pixels when its facets have these corners.
+double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm::dvec3, 4>& corners,
+                    bool fallingDiagonal, const std::vector<glm::ivec2>& pixels);
+
+CellFacets facetsOf(const RayImage& rays, const Cell& cell);
+
+// The axis across which a cut leaves the least to do, or -1 for a cell of one pixel.
+int bestCut(const RayImage& rays, const Cell& cell);
+
+}  // namespace curvewall

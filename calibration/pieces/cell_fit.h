@@ -1,0 +1,12 @@
+#pragma once
+// Any display: cells that are cut where the error is, with two facets each.
+
+#include "calibration/pieces/certificate.h"
+
+namespace curvewall {
+
+// Pieces whose error is at most the tolerance at every pixel, and of which each pixel with a ray has one.
+// Throws UsageError where that takes more than kMostPieces.
+PieceMesh fitCells(const RayImage& rays, double tolerancePx);
+
+}  // namespace curvewall

@@ -1,0 +1,39 @@
+#pragma once
+// Displays that unroll: flat screens and cylinders, where the cells of a grid are exact quads.
+
+#include "calibration/pieces/facet_balance.h"
+#include "calibration/pieces/piece_grid.h"
+#include "calibration/pieces/ray_image.h"
+
+namespace curvewall {
+
+// Whether vertices on the display's surface make exact quads of every cell of a grid over it.
+bool unrolls(const Projection& projection, const RayImage& rays);
+
+// Finds the coarsest grid on the line "columns and rows in the proportion that the bend asks for". A place on
+// that line is its fineness; 1 is where facets on the surface would meet the tolerance.
+class QuadGridSearch {
+public:
+    QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx);
+
+    // The coarsest grid that meets the tolerance at the samples of the fit. Throws UsageError where that
+    // takes too many pieces.
+    BalancedPieces coarsest();
+
+    // The next grid with more cells than the last one returned.
+    BalancedPieces finer();
+
+private:
+    BalancedPieces at(double fineness) const;
+    glm::dvec2 cellsAt(double fineness) const;
+    double nextFiner(double fineness) const;
+    bool hasGridBetween(double fails, double passes) const;
+    double guess(double tried, double sampledMaxPx, double fails, double passes) const;
+
+    const Projection& projection_;
+    BendProfile profile_;
+    double tolerancePx_;
+    double fineness_ = 0;
+};
+
+}  // namespace curvewall

@@ -1,0 +1,40 @@
+#pragma once
+// The ray of every pixel centre of a display: what the pieces are fitted to, certified against and compared
+// with.
+
+#include "calibration/projections/projection.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace curvewall {
+
+class RayImage {
+public:
+    RayImage(const Projection& projection, glm::ivec2 sizePx);
+
+    glm::ivec2 sizePx() const { return sizePx_; }
+
+    // As unproject gives it (its length may be a distance); NaN in holes.
+    const glm::dvec3& at(glm::ivec2 px) const { return rays_[indexOf(px)]; }
+    bool has(glm::ivec2 px) const { return isRay(at(px)); }
+
+    size_t indexOf(glm::ivec2 px) const {
+        return static_cast<size_t>(px.y) * static_cast<size_t>(sizePx_.x) + static_cast<size_t>(px.x);
+    }
+
+    // Row by row from the top.
+    const std::vector<glm::dvec3>& all() const { return rays_; }
+    static bool isRay(const glm::dvec3& ray) { return !std::isnan(ray.x); }
+
+private:
+    glm::ivec2 sizePx_;
+    std::vector<glm::dvec3> rays_;
+};
+
+inline glm::dvec2 centreOf(glm::ivec2 px) { return glm::dvec2(px) + 0.5; }
+
+}  // namespace curvewall

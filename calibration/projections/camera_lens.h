@@ -1,0 +1,46 @@
+#pragma once
+// Cameras and projectors as OpenCV calibrates them.
+
+#include "calibration/projections/lens.h"
+#include "calibration/projections/projection_maths.h"
+
+#include <array>
+#include <vector>
+
+namespace curvewall {
+
+// Numbers as OpenCV writes them: in pixels whose centres are whole numbers, in a frame with y down and z
+// ahead.
+struct CameraIntrinsics {
+    glm::dvec2 focalPx{1};
+    glm::dvec2 principalPx{0};
+    std::vector<double> distortion;  // what is left out is 0
+};
+
+// The pinhole model with distortion k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tau_x tau_y]]]]. Only the disc
+// around the axis in which the distortion is one-to-one is used: pixels that no ray of it reaches show
+// nothing.
+class PinholeLens : public Lens {
+public:
+    explicit PinholeLens(const CameraIntrinsics& intrinsics);
+
+    std::optional<glm::dvec3> direction(glm::dvec2 px) const override;
+    std::vector<glm::dvec2> positions(glm::dvec3 direction) const override;
+
+    // The radius of the disc: the tangent of the angle off the axis.
+    double mostRadius() const { return mostRadius_; }
+
+private:
+    std::array<double, maths::kPinholeTerms> terms_{};
+    CameraIntrinsics intrinsics_;
+    glm::dmat3 tilt_;
+    glm::dmat3 untilt_;
+    double mostRadius_;
+    double mostDistortedRadius_;  // no point of the disc is distorted to beyond it
+};
+
+// OpenCV's fisheye model with distortion k1 k2 k3 k4: an odd polynomial in the angle, used up to its turning
+// point.
+LensPtr fisheyeCameraLens(const CameraIntrinsics& intrinsics);
+
+}  // namespace curvewall

@@ -1,0 +1,13 @@
+#pragma once
+// Projections that were measured on a grid, as wall files write them.
+
+#include "calibration/readers/projection_reader.h"
+
+namespace curvewall {
+
+// Each reads the keys of its type. Throws like readProjection.
+ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& context);
+ProjectionPtr readSurfaceMap(JsonFields& fields, const ProjectionContext& context);
+ReadProjection readWarpMesh(JsonFields& fields, const ProjectionContext& context);
+
+}  // namespace curvewall

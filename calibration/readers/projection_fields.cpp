@@ -1,0 +1,43 @@
+#include "calibration/readers/projection_fields.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+
+namespace curvewall {
+
+namespace {
+constexpr Range kAngleDeg{-36000, 36000};
+}
+
+std::optional<glm::dvec3> vector3(JsonFields& fields, const char* key, Range range) {
+    const auto numbers = fields.numbers(key, 3, range);
+    if (!numbers) return std::nullopt;
+    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+}
+
+double requiredNumber(JsonFields& fields, const char* key, Range range) {
+    return fields.required(key, fields.number(key, range));
+}
+
+Pose readPose(JsonFields& fields) {
+    const auto angleRad = [&](const char* key) {
+        return glm::radians(fields.number(key, kAngleDeg).value_or(0));
+    };
+    return {vector3(fields, "center", kAnywhereM).value_or(glm::dvec3(0)),
+            {angleRad("yaw_deg"), angleRad("pitch_deg"), angleRad("roll_deg")}};
+}
+
+std::string readChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices) {
+    std::string word = fields.text(key).value_or(*choices.begin());
+    if (std::ranges::find(choices, word) != choices.end()) return word;
+    std::string expected;
+    for (const char* choice : choices) expected += (expected.empty() ? "" : ", ") + std::string(choice);
+    throw FieldError(FieldError::Kind::value, fields.nameOf(key), "one of " + expected, "\"" + word + "\"");
+}
+
+std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context) {
+    return (context.folder / fields.required(key, fields.text(key))).string();
+}
+
+}  // namespace curvewall

@@ -1,0 +1,36 @@
+#pragma once
+// Fields that several types of projection have.
+
+#include "calibration/projections/pose.h"
+#include "calibration/readers/json_fields.h"
+#include "calibration/readers/projection_reader.h"
+
+#include <glm/vec3.hpp>
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace curvewall {
+
+inline constexpr double kMostM = 1e7;  // no wall is larger than the earth
+inline constexpr Range kAnywhereM{-kMostM, kMostM};
+inline constexpr Range kLengthM{0, kMostM, true};
+inline constexpr Range kTurnsDeg{0, 1440, true};  // a panorama may go around more than once
+
+std::optional<glm::dvec3> vector3(JsonFields& fields, const char* key, Range range);
+
+// A number that must be there.
+double requiredNumber(JsonFields& fields, const char* key, Range range);
+
+// center, yaw_deg, pitch_deg and roll_deg, all optional.
+Pose readPose(JsonFields& fields);
+
+// One of a few words; the first is the default where the key may be absent.
+std::string readChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices);
+
+// A file that the object must name, as a path that can be opened.
+std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context);
+
+}  // namespace curvewall
