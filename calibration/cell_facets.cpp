@@ -204,13 +204,20 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
     if (facets.isEmpty) return facets;
 
     facets.pixelCount = static_cast<int>(pixels.size());
-    std::vector<glm::ivec2> around;
-    if (hasHoles(cell, pixels) || std::min(cell.sizePx().x, cell.sizePx().y) == 1)
-        around = pixelsAround(rays, cell);
-    facets.corners = bestPlane(rays, cell, pixels, around);
-    facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
-                         ? kInfinity
-                         : facetErrorPx(rays, cell, facets.corners, true, pixels);
+    const auto fit = [&](const std::vector<glm::ivec2>& around) {
+        facets.corners = bestPlane(rays, cell, pixels, around);
+        facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
+                             ? kInfinity
+                             : facetErrorPx(rays, cell, facets.corners, true, pixels);
+    };
+    if (!hasHoles(cell, pixels) && std::min(cell.sizePx().x, cell.sizePx().y) > 1) {
+        fit({});
+        return facets;
+    }
+    fit(pixelsAround(rays, cell));
+    // What is around one pixel may be other parts of a broken map, which know nothing of it.
+    constexpr double kLittlePx = 0.01;
+    if (cell.sizePx() == glm::ivec2(1) && !(facets.errorPx <= kLittlePx)) fit({});
     return facets;
 }
 

@@ -93,7 +93,7 @@ TEST_F(WallReader, ErrorsNameTheFileTheFieldAndWhatWasExpected) {
         {"/displays/0/size/1", "0", "displays[0].size[1]", "a whole number from 1 to 16384"},
         {"/displays/0/size/0", "640.5", "displays[0].size[0]", "a whole number"},
         {"/displays/0/projection", "[]", "displays[0].projection", "an object"},
-        {"/displays/0/projection/type", "\"cone\"", "displays[0].projection.type", "one of camera, curvilinear, cylinder"},
+        {"/displays/0/projection/type", "\"cone\"", "displays[0].projection.type", "one of camera, camera_texture, curvilinear"},
         {"/displays/0/projection/radius", "-1", "displays[0].projection.radius", "above 0"},
         {"/displays/0/projection/radius", "0", "displays[0].projection.radius", "above 0"},
         {"/displays/0/projection/radius", "1e999", "", "JSON"},
