@@ -134,6 +134,7 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
 bool isWiderThanSeen(const RayImage& rays, const std::vector<glm::ivec2>& pixels,
                      const std::array<glm::dvec3, 4>& corners) {
     constexpr double kMostTimes = 4;
+    constexpr double kRounding = 1e-12;  // of one ray seen by all
     glm::dvec3 mean(0);
     for (glm::ivec2 px : pixels) mean += glm::normalize(rays.at(px));
     mean = glm::normalize(mean);
@@ -141,7 +142,7 @@ bool isWiderThanSeen(const RayImage& rays, const std::vector<glm::ivec2>& pixels
     for (glm::ivec2 px : pixels) seen = std::max(seen, glm::distance(glm::normalize(rays.at(px)), mean));
     for (const glm::dvec3& corner : corners)
         spanned = std::max(spanned, glm::distance(glm::normalize(corner), mean));
-    return seen > 0 && !(spanned <= kMostTimes * seen);
+    return seen > kRounding && !(spanned <= kMostTimes * seen);
 }
 
 }  // namespace
