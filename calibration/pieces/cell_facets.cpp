@@ -69,7 +69,7 @@ FlatModel flatModelOf(const RayImage& rays, const std::vector<glm::ivec2>& pixel
 
 bool hasHoles(const Cell& cell, const std::vector<glm::ivec2>& pixels) {
     const glm::ivec2 counts = glm::min(cell.sizePx(), glm::ivec2(kLattice));
-    return pixels.size() < static_cast<size_t>(counts.x * counts.y);
+    return pixels.size() < static_cast<size_t>(counts.x) * static_cast<size_t>(counts.y);
 }
 
 // Where a display ends within a cell, the few pixels that it has there do not say how its surface goes on to
@@ -113,7 +113,7 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
         const glm::dvec2 uv = place(centreOf(px));
         for (int axis = 0; axis < 2; ++axis) {
             Eigen::Matrix<double, 8, 1> row = Eigen::Matrix<double, 8, 1>::Zero();
-            row.segment<3>(3 * axis) << c.x, c.y, c.z;
+            row.segment<3>(Eigen::Index{3} * axis) << c.x, c.y, c.z;
             row.tail<2>() << -uv[axis] * c.y, -uv[axis] * c.z;
             normal += weight * row * row.transpose();
             right += weight * uv[axis] * row;
