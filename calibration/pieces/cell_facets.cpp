@@ -72,6 +72,16 @@ bool hasHoles(const Cell& cell, const std::vector<glm::ivec2>& pixels) {
     return pixels.size() < static_cast<size_t>(counts.x) * static_cast<size_t>(counts.y);
 }
 
+bool isThin(const std::vector<glm::ivec2>& pixels) {
+    constexpr int kFewPx = 4;
+    glm::ivec2 least = pixels.front(), most = least;
+    for (glm::ivec2 px : pixels) {
+        least = glm::min(least, px);
+        most = glm::max(most, px);
+    }
+    return std::min(most.x - least.x, most.y - least.y) + 1 < kFewPx;
+}
+
 // Where a display ends within a cell, the few pixels that it has there do not say how its surface goes on to
 // the cell's corners; those beside the cell do.
 std::vector<glm::ivec2> pixelsAround(const RayImage& rays, const Cell& cell) {
@@ -189,12 +199,10 @@ double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm
         const auto vertex = [&](size_t i) { return PieceVertex{m[facet[i]], corners[facet[i]]}; };
         h[k] = homographyThrough(vertex(0), vertex(1), vertex(2));
     }
+    const bool thin = isThin(pixels);
     double worst = 0;
-    for (glm::ivec2 px : pixels) {
-        const glm::dvec3 seen = h[facetAt(cell, falling, px)] * rays.at(px);
-        if (!(seen.z > 0)) return kInfinity;
-        worst = std::max(worst, glm::distance(glm::dvec2(seen) / seen.z, centreOf(px)));
-    }
+    for (glm::ivec2 px : pixels)
+        worst = std::max(worst, facetErrorPx(rays, px, h[facetAt(cell, falling, px)], thin));
     return worst;
 }
 
@@ -205,6 +213,7 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
     if (facets.isEmpty) return facets;
 
     facets.pixelCount = static_cast<int>(pixels.size());
+    facets.isThin = isThin(pixels);
     const auto fit = [&](const std::vector<glm::ivec2>& around) {
         facets.corners = bestPlane(rays, cell, pixels, around);
         facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
@@ -216,10 +225,22 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
         return facets;
     }
     fit(pixelsAround(rays, cell));
-    // What is around one pixel may be other parts of a broken map, which know nothing of it.
-    constexpr double kLittlePx = 0.01;
-    if (cell.sizePx() == glm::ivec2(1) && !(facets.errorPx <= kLittlePx)) fit({});
     return facets;
+}
+
+CellFacets facetsOfLonePixel(const RayImage& rays, const Cell& cell) {
+    return {bestPlane(rays, cell, {cell.fromPx}, {}), 0, 1, false, true};
+}
+
+double facetErrorPx(const RayImage& rays, glm::ivec2 px, const glm::dmat3& screenFromRay, bool isThin) {
+    constexpr double kExact = 1e-6;  // then the ray that is shown is the pixel's
+    const glm::dvec2 centre = centreOf(px);
+    const glm::dvec3 seen = screenFromRay * rays.at(px);
+    if (!(seen.z > 0)) return kInfinity;
+    const double landsPx = glm::distance(glm::dvec2(seen) / seen.z, centre);
+    if (!isThin || landsPx <= kExact) return landsPx;
+    const auto offset = rays.offsetPx(px, glm::inverse(screenFromRay) * glm::dvec3(centre, 1));
+    return offset ? std::max(landsPx, glm::length(*offset)) : landsPx;
 }
 
 int bestCut(const RayImage& rays, const Cell& cell) {

@@ -29,6 +29,7 @@ struct CellFacets {
     double errorPx = 0;                   // over a lattice of pixels
     int pixelCount = 0;                   // of that lattice
     bool isEmpty = false;                 // no pixel of the cell has a ray
+    bool isThin = false;                  // those that have one are a line, or hardly more
 };
 
 // The larger error of a cell's pixels when its facets have these corners.
@@ -36,6 +37,14 @@ double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm
                     bool fallingDiagonal, const std::vector<glm::ivec2>& pixels);
 
 CellFacets facetsOf(const RayImage& rays, const Cell& cell);
+
+// Those of a single pixel that has nothing to do with what is around it.
+CellFacets facetsOfLonePixel(const RayImage& rays, const Cell& cell);
+
+// How far a pixel's ray lands from its centre; in a thin cell, if that is more, how far from there the
+// display has the ray that is shown at the centre. The two are about the same where the facet is as steep as
+// the display, but between pixels in a line nothing else sees to that.
+double facetErrorPx(const RayImage& rays, glm::ivec2 px, const glm::dmat3& screenFromRay, bool isThin);
 
 // The axis across which a cut leaves the least to do, or -1 for a cell of one pixel.
 int bestCut(const RayImage& rays, const Cell& cell);

@@ -6,6 +6,8 @@
 #include "calibration/pieces/piece_fit.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -125,14 +127,31 @@ private:
             meshOfCells(display.tree, display.facets, rays_, loose_, kMostDisagreement * tolerancePx_);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
         mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_).mesh;
-        const std::vector<int32_t> owners = ownerImage(mesh);
-        const std::vector<float> errors = pieceErrorsPx(rays_, mesh, owners);
         std::vector<uint32_t> failing;
-        for (size_t i = 0; i < errors.size(); ++i)
-            if (errors[i] > tolerancePx_)  // not so in holes
-                failing.push_back(cells.cellOfPiece[static_cast<size_t>(owners[i])]);
-        std::ranges::sort(failing);
+        for (uint32_t piece : piecesThatFail(display, cells.cellOfPiece, mesh))
+            failing.push_back(cells.cellOfPiece[piece]);
         failing.erase(std::unique(failing.begin(), failing.end()), failing.end());
+        return failing;
+    }
+
+    std::vector<uint32_t> piecesThatFail(const CutDisplay& display, const std::vector<uint32_t>& cellOfPiece,
+                                         const PieceMesh& mesh) const {
+        const std::vector<int32_t> owners = ownerImage(mesh);
+        std::vector<std::atomic<bool>> fails(mesh.pieces.size());
+        parallelRanges(mesh.sizePx.y, [&](int begin, int end) {
+            for (int y = begin; y < end; ++y) {
+                for (int x = 0; x < mesh.sizePx.x; ++x) {
+                    if (!rays_.has({x, y})) continue;
+                    const auto k = static_cast<size_t>(owners[rays_.indexOf({x, y})]);
+                    const bool isThin = display.facets[cellOfPiece[k]].isThin;
+                    if (!(facetErrorPx(rays_, {x, y}, mesh.pieces[k].screenFromRay, isThin) <= tolerancePx_))
+                        fails[k].store(true, std::memory_order_relaxed);
+                }
+            }
+        });
+        std::vector<uint32_t> failing;
+        for (uint32_t k = 0; k < fails.size(); ++k)
+            if (fails[k]) failing.push_back(k);
         return failing;
     }
 
@@ -153,19 +172,26 @@ private:
         return facetErrorPx(rays_, cell, display.facets[id].corners, true, latticePixels(rays_, cell, every));
     }
 
-    // Cuts a cell, and its parts as long as no balance could mend them. One that is good enough alone, as one
-    // of a single pixel is, lets go of its neighbours instead and is then never touched again.
+    // Cuts a cell, and its parts as long as no balance could mend them. One that is good enough alone lets go
+    // of its neighbours instead, and stays as it is from then on; so does a single pixel.
     void refine(CutDisplay& display, uint32_t id, bool isHopeful) {
         constexpr double kSafely = 0.98;
         const double goodPx = tolerancePx_ * (isHopeful ? 0.5 : kSafely);
         const double mendablePx = tolerancePx_ * (isHopeful ? kGainOfBalance : kSafely);
+        if (display.tree.cell(id).sizePx() == glm::ivec2(1)) {
+            if (!lonePixels_.insert(id).second) refuseTolerance(tolerancePx_);
+            display.facets[id] = facetsOfLonePixel(rays_, display.tree.cell(id));
+            loose_.insert(id);
+            return;
+        }
         if (ownErrorPx(display, id) <= goodPx && loose_.insert(id).second) return;
         for (std::vector<uint32_t> tooLarge{id}; !tooLarge.empty();) {
             const uint32_t cell = tooLarge.back();
             tooLarge.pop_back();
             cut(display, cell);
             for (uint32_t half : {display.tree.cellCount() - 2, display.tree.cellCount() - 1})
-                if (!display.facets[half].isEmpty && ownErrorPx(display, half) > mendablePx)
+                if (!display.facets[half].isEmpty && display.tree.cell(half).sizePx() != glm::ivec2(1) &&
+                    ownErrorPx(display, half) > mendablePx)
                     tooLarge.push_back(half);
         }
     }
@@ -183,6 +209,7 @@ private:
     const RayImage& rays_;
     double tolerancePx_;
     std::unordered_set<uint32_t> loose_;
+    std::unordered_set<uint32_t> lonePixels_;
 };
 
 }  // namespace

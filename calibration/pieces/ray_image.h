@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace curvewall {
@@ -26,11 +27,17 @@ public:
         return static_cast<size_t>(px.y) * static_cast<size_t>(sizePx_.x) + static_cast<size_t>(px.x);
     }
 
+    // How far from a pixel's centre the display shows a ray, to first order; infinite for one that points the
+    // other way, and nothing where the neighbours do not tell how the display goes on.
+    std::optional<glm::dvec2> offsetPx(glm::ivec2 px, glm::dvec3 ray) const;
+
     // Row by row from the top.
     const std::vector<glm::dvec3>& all() const { return rays_; }
     static bool isRay(const glm::dvec3& ray) { return !std::isnan(ray.x); }
 
 private:
+    glm::dvec3 directionStep(glm::ivec2 px, int axis) const;
+
     glm::ivec2 sizePx_;
     std::vector<glm::dvec3> rays_;
 };
