@@ -31,7 +31,8 @@ struct CutDisplay {
 
 class CellFit {
 public:
-    CellFit(const RayImage& rays, double tolerancePx) : rays_(rays), tolerancePx_(tolerancePx) {}
+    CellFit(const RayImage& rays, double tolerancePx, const std::stop_token& stop)
+        : rays_(rays), tolerancePx_(tolerancePx), stop_(stop) {}
 
     PieceMesh fit() {
         double errorPx = kGainOfBalance * tolerancePx_;
@@ -56,6 +57,7 @@ private:
     CutDisplay cutTo(double errorPx, glm::ivec2 firstCounts, size_t mostPieces) const {
         CutDisplay display{CellTree(rays_.sizePx(), firstCounts), {}, 0};
         for (uint32_t id = 0; id < display.tree.cellCount() && display.pieceCount <= mostPieces; ++id) {
+            throwIfStopped(stop_);
             const Cell cell = display.tree.cell(id);
             const CellFacets& facets = display.facets.emplace_back(facetsOf(rays_, cell));
             if (facets.isEmpty) continue;
@@ -96,7 +98,7 @@ private:
         const CellMesh cells =
             meshOfCells(display.tree, display.facets, rays_, loose_, kMostDisagreement * tolerancePx_);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
-        mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_).mesh;
+        mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_, stop_).mesh;
         const std::vector<int32_t> owners = ownerImage(mesh);
         const std::vector<float> errors = pieceErrorsPx(rays_, mesh, owners);
         std::vector<uint32_t> failing;
@@ -135,11 +137,14 @@ private:
 
     const RayImage& rays_;
     double tolerancePx_;
+    const std::stop_token& stop_;
     std::unordered_set<uint32_t> loose_;
 };
 
 }  // namespace
 
-PieceMesh fitCells(const RayImage& rays, double tolerancePx) { return CellFit(rays, tolerancePx).fit(); }
+PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop) {
+    return CellFit(rays, tolerancePx, stop).fit();
+}
 
 }  // namespace curvewall

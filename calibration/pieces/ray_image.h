@@ -8,13 +8,15 @@
 #include <glm/vec3.hpp>
 
 #include <cmath>
+#include <stop_token>
 #include <vector>
 
 namespace curvewall {
 
 class RayImage {
 public:
-    RayImage(const Projection& projection, glm::ivec2 sizePx);
+    // Throws FitStopped soon after a stop is requested.
+    RayImage(const Projection& projection, glm::ivec2 sizePx, const std::stop_token& stop = {});
 
     glm::ivec2 sizePx() const { return sizePx_; }
 
