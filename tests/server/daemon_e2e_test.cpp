@@ -34,7 +34,7 @@ using nlohmann::json;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
-// At the least tolerance, minutes of fitting.
+// Minutes of fitting.
 constexpr std::string_view kHardWall = R"({
     "wall": "hard", "eye": [0, 0, 0],
     "displays": [ { "name": "front", "size": [4000, 4000],
