@@ -9,6 +9,6 @@ namespace curvewall {
 
 // Pieces whose error is at most the tolerance at every pixel, and of which each pixel with a ray has one.
 // Throws UsageError where that takes more than kMostPieces, and FitStopped.
-PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop);
+PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop = {});
 
 }  // namespace curvewall
