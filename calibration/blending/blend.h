@@ -21,6 +21,7 @@ using BlendMapsPtr = std::shared_ptr<const BlendMaps>;
 
 // Factors of the picture, one a pixel in linear light, on top of what is there.
 inline void multiplyPicture(BlendMaps& maps, const std::vector<float>& factors) {
+    if (factors.empty()) return;
     if (maps.alpha.empty()) maps.alpha.assign(factors.size(), glm::vec3(1));
     for (size_t i = 0; i < factors.size(); ++i) maps.alpha[i] *= factors[i];
 }

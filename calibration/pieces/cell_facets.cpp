@@ -69,7 +69,7 @@ FlatModel flatModelOf(const RayImage& rays, const std::vector<glm::ivec2>& pixel
 
 bool hasHoles(const Cell& cell, const std::vector<glm::ivec2>& pixels) {
     const glm::ivec2 counts = glm::min(cell.sizePx(), glm::ivec2(kLattice));
-    return pixels.size() < static_cast<size_t>(counts.x * counts.y);
+    return pixels.size() < static_cast<size_t>(counts.x) * static_cast<size_t>(counts.y);
 }
 
 // Where a display ends within a cell, the few pixels that it has there do not say how its surface goes on to
@@ -113,7 +113,7 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
         const glm::dvec2 uv = place(centreOf(px));
         for (int axis = 0; axis < 2; ++axis) {
             Eigen::Matrix<double, 8, 1> row = Eigen::Matrix<double, 8, 1>::Zero();
-            row.segment<3>(3 * axis) << c.x, c.y, c.z;
+            row.segment<3>(Eigen::Index{3} * axis) << c.x, c.y, c.z;
             row.tail<2>() << -uv[axis] * c.y, -uv[axis] * c.z;
             normal += weight * row * row.transpose();
             right += weight * uv[axis] * row;
@@ -134,6 +134,7 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
 bool isWiderThanSeen(const RayImage& rays, const std::vector<glm::ivec2>& pixels,
                      const std::array<glm::dvec3, 4>& corners) {
     constexpr double kMostTimes = 4;
+    constexpr double kRounding = 1e-12;  // of one ray seen by all
     glm::dvec3 mean(0);
     for (glm::ivec2 px : pixels) mean += glm::normalize(rays.at(px));
     mean = glm::normalize(mean);
@@ -141,7 +142,7 @@ bool isWiderThanSeen(const RayImage& rays, const std::vector<glm::ivec2>& pixels
     for (glm::ivec2 px : pixels) seen = std::max(seen, glm::distance(glm::normalize(rays.at(px)), mean));
     for (const glm::dvec3& corner : corners)
         spanned = std::max(spanned, glm::distance(glm::normalize(corner), mean));
-    return seen > 0 && !(spanned <= kMostTimes * seen);
+    return seen > kRounding && !(spanned <= kMostTimes * seen);
 }
 
 }  // namespace
@@ -204,21 +205,20 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
     if (facets.isEmpty) return facets;
 
     facets.pixelCount = static_cast<int>(pixels.size());
-    std::vector<glm::ivec2> around;
-    if (hasHoles(cell, pixels) || std::min(cell.sizePx().x, cell.sizePx().y) == 1)
-        around = pixelsAround(rays, cell);
-    facets.corners = bestPlane(rays, cell, pixels, around);
-    const auto errorPx = [&] {
-        if (isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)) return kInfinity;
-        return facetErrorPx(rays, cell, facets.corners, true, pixels);
+    const auto fit = [&](const std::vector<glm::ivec2>& around) {
+        facets.corners = bestPlane(rays, cell, pixels, around);
+        facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
+                             ? kInfinity
+                             : facetErrorPx(rays, cell, facets.corners, true, pixels);
     };
-    facets.errorPx = errorPx();
-    if (std::isinf(facets.errorPx) && cell.sizePx() == glm::ivec2(1)) {
-        // Nothing around it goes with this pixel: a plane across its ray shows it.
-        const FlatModel alone = flatModelOf(rays, pixels);
-        for (size_t i = 0; i < 4; ++i) facets.corners[i] = alone.at(cornersOf(cell)[i]);
-        facets.errorPx = facetErrorPx(rays, cell, facets.corners, true, pixels);
+    if (!hasHoles(cell, pixels) && std::min(cell.sizePx().x, cell.sizePx().y) > 1) {
+        fit({});
+        return facets;
     }
+    fit(pixelsAround(rays, cell));
+    // What is around one pixel may be other parts of a broken map, which know nothing of it.
+    constexpr double kLittlePx = 0.01;
+    if (cell.sizePx() == glm::ivec2(1) && !(facets.errorPx <= kLittlePx)) fit({});
     return facets;
 }
 

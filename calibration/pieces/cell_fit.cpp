@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -19,8 +20,12 @@ constexpr double kGainOfBalance = 1.4;
 constexpr double kMostDisagreement = 8;
 // Where more cells than this fail, all of them should have been smaller.
 constexpr double kFewFailures = 0.1;
-// Halving one first cell makes cells of 1/2, 1/4 ... of the display; other first counts put sizes between.
+// Halving makes cells of 1, 1/2, 1/4 ... of the first ones; these first counts put sizes between.
 constexpr std::array<int, 3> kOtherFirstCounts{3, 5, 7};
+// Cells of fewer pixels than this on average are what noise is cut into.
+constexpr size_t kFewPixels = 16;
+// Rounds in which cells that fail may hope that balancing mends them. Measured rarely to take more than four.
+constexpr int kHopefulRounds = 6;
 
 // A display cut into cells, each with its own best plane.
 struct CutDisplay {
@@ -44,30 +49,54 @@ public:
             display = bestCuts(errorPx);
             failing = tryFit(display, mesh);
         }
-        while (!failing.empty()) {
-            for (uint32_t cell : failing) refine(display, cell);
+        for (int round = 0; !failing.empty(); ++round) {
+            const bool isHopeful = round < kHopefulRounds && !areTiny(display);
+            for (uint32_t cell : failing) refine(display, cell, isHopeful);
             failing = tryFit(display, mesh);
         }
         return mesh;
     }
 
 private:
-    // Cuts cells until the own best plane of each is off by `errorPx` at most, or there are more than
-    // `mostPieces`.
+    // A cell on its own, with the axis to cut it across when it is off by more than `errorPx`; -1 for none.
+    struct Decision {
+        CellFacets facets;
+        int axis = -1;
+    };
+    Decision decide(const Cell& cell, double errorPx) const {
+        throwIfStopped(stop_);
+        Decision decision{facetsOf(rays_, cell)};
+        if (!decision.facets.isEmpty && !(decision.facets.errorPx <= errorPx))
+            decision.axis = bestCut(rays_, cell);
+        return decision;
+    }
+
+    // Cuts cells until the own best plane of each is off by `errorPx` at most. Ends early, and is of no use,
+    // when that takes more than `mostPieces`.
     CutDisplay cutTo(double errorPx, glm::ivec2 firstCounts, size_t mostPieces) const {
         CutDisplay display{CellTree(rays_.sizePx(), firstCounts), {}, 0};
-        for (uint32_t id = 0; id < display.tree.cellCount() && display.pieceCount <= mostPieces; ++id) {
-            throwIfStopped(stop_);
-            const Cell cell = display.tree.cell(id);
-            const CellFacets& facets = display.facets.emplace_back(facetsOf(rays_, cell));
-            if (facets.isEmpty) continue;
-            const int axis = facets.errorPx <= errorPx ? -1 : bestCut(rays_, cell);
-            if (axis >= 0)
-                display.tree.cut(id, axis);
-            else
-                display.pieceCount += 2;
+        for (uint32_t begin = 0; begin < display.tree.cellCount() && display.pieceCount <= mostPieces;) {
+            const uint32_t end = display.tree.cellCount();
+            std::vector<Decision> decisions(end - begin);
+            parallelRanges(static_cast<int>(decisions.size()), [&](int from, int to) {
+                for (int i = from; i < to; ++i)
+                    decisions[static_cast<size_t>(i)] =
+                        decide(display.tree.cell(begin + static_cast<uint32_t>(i)), errorPx);
+            });
+            for (const Decision& decision : decisions) {
+                display.facets.push_back(decision.facets);
+                if (decision.axis >= 0)
+                    display.tree.cut(begin, decision.axis);
+                else if (!decision.facets.isEmpty)
+                    display.pieceCount += 2;
+                ++begin;
+            }
         }
         return display;
+    }
+
+    bool areTiny(const CutDisplay& display) const {
+        return display.pieceCount / 2 * kFewPixels > rays_.all().size();
     }
 
     // The first counts that lead to the fewest pieces, for columns and then for rows.
@@ -75,26 +104,25 @@ private:
         glm::ivec2 counts(1);
         CutDisplay best = cutTo(errorPx, counts, kMostPieces);
         if (best.pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
+        if (areTiny(best)) return best;
         for (int axis : {0, 1}) {
-            std::array<std::optional<CutDisplay>, kOtherFirstCounts.size()> tried;
-            parallelRanges(static_cast<int>(tried.size()), [&](int begin, int end) {
-                for (int i = begin; i < end; ++i) {
-                    glm::ivec2 first = counts;
-                    first[axis] = kOtherFirstCounts[static_cast<size_t>(i)];
-                    tried[static_cast<size_t>(i)] = cutTo(errorPx, first, best.pieceCount);
-                }
-            });
-            for (size_t i = 0; i < tried.size(); ++i) {
-                if (tried[i]->pieceCount >= best.pieceCount) continue;
-                best = std::move(*tried[i]);
-                counts[axis] = kOtherFirstCounts[i];
+            for (int count : kOtherFirstCounts) {
+                glm::ivec2 first = counts;
+                first[axis] = count;
+                CutDisplay tried = cutTo(errorPx, first, best.pieceCount - 1);
+                if (tried.pieceCount >= best.pieceCount) continue;
+                best = std::move(tried);
+                counts = first;
             }
         }
         return best;
     }
 
     // Balances the facets. The answer is the cells that do not meet the tolerance.
-    std::vector<uint32_t> tryFit(const CutDisplay& display, PieceMesh& mesh) const {
+    std::vector<uint32_t> tryFit(const CutDisplay& display, PieceMesh& mesh) {
+        // Nothing goes on from one to the next that is worth the time.
+        if (areTiny(display))
+            std::ranges::copy(display.tree.wholeCells(), std::inserter(loose_, loose_.end()));
         const CellMesh cells =
             meshOfCells(display.tree, display.facets, rays_, loose_, kMostDisagreement * tolerancePx_);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
@@ -117,22 +145,42 @@ private:
     bool shouldAllBeSmaller(const CutDisplay& display, const std::vector<uint32_t>& failing) const {
         const auto tooLarge =
             std::ranges::count_if(failing, [&](uint32_t cell) { return !isGoodAlone(display, cell); });
-        return 2 * static_cast<double>(tooLarge) > kFewFailures * static_cast<double>(display.pieceCount);
+        return !areTiny(display) &&
+               2 * static_cast<double>(tooLarge) > kFewFailures * static_cast<double>(display.pieceCount);
     }
 
-    // Cuts a cell. One that would meet the tolerance alone, as one of a single pixel does, lets go of its
-    // neighbours instead.
-    void refine(CutDisplay& display, uint32_t id) {
-        const int axis = bestCut(rays_, display.tree.cell(id));
-        if (axis < 0 || (isGoodAlone(display, id) && !loose_.contains(id))) {
-            if (!loose_.insert(id).second) refuseTolerance(tolerancePx_);
-            return;
+    double ownErrorPx(const CutDisplay& display, uint32_t id) const {
+        const Cell& cell = display.tree.cell(id);
+        const int every = std::max(cell.sizePx().x, cell.sizePx().y);
+        return facetErrorPx(rays_, cell, display.facets[id].corners, true, latticePixels(rays_, cell, every));
+    }
+
+    // Cuts a cell, and its parts as long as no balance could mend them. One that is good enough alone, as one
+    // of a single pixel is, lets go of its neighbours instead and is then never touched again.
+    void refine(CutDisplay& display, uint32_t id, bool isHopeful) {
+        constexpr double kSafely = 0.98;
+        const double goodPx = tolerancePx_ * (isHopeful ? 0.5 : kSafely);
+        const double mendablePx = tolerancePx_ * (isHopeful ? kGainOfBalance : kSafely);
+        if (ownErrorPx(display, id) <= goodPx && loose_.insert(id).second) return;
+        for (std::vector<uint32_t> tooLarge{id}; !tooLarge.empty();) {
+            const uint32_t cell = tooLarge.back();
+            tooLarge.pop_back();
+            cut(display, cell);
+            for (uint32_t half : {display.tree.cellCount() - 2, display.tree.cellCount() - 1})
+                if (!display.facets[half].isEmpty && ownErrorPx(display, half) > mendablePx)
+                    tooLarge.push_back(half);
         }
+    }
+
+    void cut(CutDisplay& display, uint32_t id) const {
+        throwIfStopped(stop_);
+        const int axis = bestCut(rays_, display.tree.cell(id));
+        if (axis < 0) refuseTolerance(tolerancePx_);
         display.tree.cut(id, axis);
-        display.pieceCount += 2;
-        if (display.pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
         for (uint32_t half : {display.tree.cellCount() - 2, display.tree.cellCount() - 1})
             display.facets.push_back(facetsOf(rays_, display.tree.cell(half)));
+        display.pieceCount += 2;
+        if (display.pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
     }
 
     const RayImage& rays_;

@@ -146,10 +146,8 @@ private:
             m += static_cast<double>(facets_[cell].pixelCount) * glm::normalize(facets_[cell].corners[at]);
         }
         result_.mesh.vertices.push_back({glm::normalize(m), glm::dvec2(corner)});
-        if (shared.longCell == kNone)
-            terms_.push_back(Terms{{unknownCount_++, 1.0}});
-        else
-            terms_.emplace_back();
+        const bool isFree = shared.longCell == kNone && !loose_.contains(shared.cells.front());
+        terms_.push_back(isFree ? Terms{{unknownCount_++, 1.0}} : Terms{});
         longCells_.push_back(shared.longCell);
         return vertex;
     }
@@ -216,6 +214,7 @@ private:
             result_.mesh.pieces.push_back(piece);
             result_.cellOfPiece.push_back(id);
         }
+        if (loose_.contains(id)) return;
         for (size_t k = 0; k < 2; ++k)
             for (glm::ivec2 px : pixels)
                 if (facetAt(cell, falling, px) == k) addSample(first + static_cast<uint32_t>(k), px);

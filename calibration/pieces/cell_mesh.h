@@ -19,7 +19,8 @@ struct CellMesh {
 
 // Cells without a ray have no piece. Neighbours share their vertices, so that their pieces agree along the
 // common edge, unless the display does not go on there (a fold, another part of a broken map), that is where
-// their own planes are apart by more than `mostDisagreementPx`, or one of them is in `loose`. Where a vertex
+// their own planes are apart by more than `mostDisagreementPx`, or one of them is in `loose`: those are on
+// their own planes, where nothing moves them. Where a vertex
 // lies within a neighbour's longer edge it hangs: both its point and its screen position are the same blend
 // of the edge's ends.
 CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,

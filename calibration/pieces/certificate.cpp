@@ -23,8 +23,8 @@ std::vector<float> pieceErrorsPx(const RayImage& rays, const PieceMesh& mesh,
                 } else if (owners[i] != kNoPiece) {
                     const Piece& piece = mesh.pieces[static_cast<size_t>(owners[i])];
                     const glm::dvec3 h = piece.screenFromRay * rays.at({x, y});
-                    if (h.z > 0)
-                        errors[i] = static_cast<float>(glm::length(glm::dvec2(h) / h.z - centreOf({x, y})));
+                    const double px = glm::length(glm::dvec2(h) / h.z - centreOf({x, y}));
+                    if (h.z > 0 && std::isfinite(px)) errors[i] = static_cast<float>(px);
                 }
             }
         }

@@ -18,6 +18,8 @@ namespace {
 constexpr int kIterations = 24;
 constexpr int kPatience = 4;         // steps without progress before the fit ends
 constexpr double kProgress = 0.995;  // what the maximum must fall below, of the best so far
+constexpr int kFirstSteps = 3;       // after which the fit is about as good as least squares make it
+constexpr double kMostGain = 8;      // of what follows
 constexpr int kHalvings = 6;         // of a step that would turn a facet over
 
 struct Landing {
@@ -83,6 +85,8 @@ public:
 
     // The movement of every unknown.
     Eigen::VectorXd solve() {
+        // Unknowns without a sample get their place on the diagonal now: later it would cost a copy each.
+        for (int i = 0; i < right_.size(); ++i) entries_.emplace_back(i, i, 0.0);
         Eigen::SparseMatrix<double> normal(right_.size(), right_.size());
         normal.setFromTriplets(entries_.begin(), entries_.end());
         // Some motions change nothing on the screen and others next to nothing, which would grow and hide
@@ -210,6 +214,7 @@ BalancedPieces balanceFacets(PieceMesh mesh, const Motion& motion, const std::ve
         idle = worst < kProgress * best.sampledMaxPx ? 0 : idle + 1;
         if (worst < best.sampledMaxPx) best = {mesh, worst};
         if (worst <= std::max(goodEnoughPx, 1e-9)) break;
+        if (i >= kFirstSteps && goodEnoughPx > 0 && best.sampledMaxPx > kMostGain * goodEnoughPx) break;
         if (i > 0) reweight(weights, errors);  // the first step is the plain least squares fit
         Eigen::VectorXd step = solveStep(mesh, motion, samples, weights);
         if (!step.allFinite()) break;

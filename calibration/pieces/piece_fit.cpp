@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -21,20 +23,24 @@ void certify(const RayImage& rays, FittedPieces& fitted) {
     fitted.certificate = certificateOf(fitted.errorsPx, fitted.owners, fitted.mesh.sizePx);
 }
 
-// Pixel centres may find an error between the samples of the fit: only the certificate decides.
-void fitQuadGrid(const Projection& projection, const RayImage& rays, double tolerancePx,
+// Pixel centres may find an error between the samples of the fit: only the certificate decides. False where
+// that is not a matter of a few more cells: the display then unrolls only as far as `unrolls` looked.
+bool fitQuadGrid(const Projection& projection, const RayImage& rays, double tolerancePx,
                  const std::stop_token& stop, FittedPieces& fitted) {
+    constexpr int kMostRounds = 16;
     const Stopwatch fitting;
     QuadGridSearch search(projection, rays.sizePx(), tolerancePx, stop);
-    fitted.mesh = search.coarsest().mesh;
+    std::optional<BalancedPieces> found = search.coarsest();
     fitted.fitMs += fitting.ms();
     const Stopwatch certifying;
-    certify(rays, fitted);
-    while (!(fitted.certificate.maxPx <= tolerancePx)) {
-        fitted.mesh = search.finer().mesh;
+    for (int round = 0; found && round < kMostRounds; ++round) {
+        fitted.mesh = std::move(found->mesh);
         certify(rays, fitted);
+        if (fitted.certificate.maxPx <= tolerancePx) break;
+        found = search.finer();
     }
     fitted.certifyMs = certifying.ms();
+    return found && fitted.certificate.maxPx <= tolerancePx;
 }
 
 }  // namespace
@@ -54,10 +60,7 @@ FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double t
     if (std::ranges::none_of(rays.all(), RayImage::isRay))
         throw UsageError("the display shows nothing: no pixel has a ray");
     fitted.fitMs = sampling.ms();
-    if (unrolls(projection, rays)) {
-        fitQuadGrid(projection, rays, tolerancePx, stop, fitted);
-        return fitted;
-    }
+    if (unrolls(projection, rays) && fitQuadGrid(projection, rays, tolerancePx, stop, fitted)) return fitted;
     const Stopwatch fitting;
     fitted.mesh = fitCells(rays, tolerancePx, stop);
     fitted.fitMs += fitting.ms();

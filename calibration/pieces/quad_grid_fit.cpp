@@ -14,6 +14,9 @@ namespace curvewall {
 namespace {
 
 constexpr int kLattice = 4;  // samples per piece edge, less one
+// The error falls with the square of the fineness. A display on which that much is not enough breaks
+// somewhere; cells of a grid do not mend that.
+constexpr double kFinest = 8;
 
 // The first vertex's point plus what its column and its row add: m(i, j) = u(i) + v(j), which every grid of
 // parallelograms is. Exactness is a constraint of the fit and not a tolerance.
@@ -58,7 +61,7 @@ bool hasArea(const PieceGrid& grid) {
 
 bool unrolls(const Projection& projection, const RayImage& rays) {
     if (!std::ranges::all_of(rays.all(), RayImage::isRay)) return false;
-    constexpr int kCells = 4;
+    constexpr int kCells = 7;  // at hardly any period that a display may have
     PieceGrid grid{rays.sizePx(), kCells, kCells, {}};
     for (int row = 0; row <= kCells; ++row) {
         for (int column = 0; column <= kCells; ++column) {
@@ -75,11 +78,11 @@ QuadGridSearch::QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, 
                                const std::stop_token& stop)
     : projection_(projection), profile_(projection, sizePx), tolerancePx_(tolerancePx), stop_(stop) {}
 
-BalancedPieces QuadGridSearch::coarsest() {
+std::optional<BalancedPieces> QuadGridSearch::coarsest() {
     double next = 0.7;  // balancing halves the error, so about sqrt(1/2)
     double fails = 0;
     std::optional<BalancedPieces> found;
-    for (;;) {
+    while (next <= kFinest) {
         BalancedPieces tried = at(next);
         const double sampledMaxPx = tried.sampledMaxPx;
         if (sampledMaxPx <= tolerancePx_) {
@@ -88,13 +91,15 @@ BalancedPieces QuadGridSearch::coarsest() {
         } else {
             fails = next;
         }
-        if (found && !hasGridBetween(fails, fineness_)) return std::move(*found);
+        if (found && !hasGridBetween(fails, fineness_)) return found;
         next = guess(next, sampledMaxPx, fails, found ? fineness_ : std::numeric_limits<double>::infinity());
     }
+    return std::nullopt;
 }
 
-BalancedPieces QuadGridSearch::finer() {
+std::optional<BalancedPieces> QuadGridSearch::finer() {
     fineness_ = nextFiner(fineness_);
+    if (fineness_ > kFinest) return std::nullopt;
     return at(fineness_);
 }
 
@@ -115,10 +120,10 @@ glm::dvec2 QuadGridSearch::cellsAt(double fineness) const {
 
 // Where nothing bends no fineness gives more cells: what is wrong there, cells do not mend.
 double QuadGridSearch::nextFiner(double fineness) const {
-    constexpr double kHopeless = 1e12;
-    for (double next = fineness * 1.002; next < kHopeless; next *= 1.002)
-        if (cellsAt(next) != cellsAt(fineness)) return next;
-    refuseTolerance(tolerancePx_);
+    double next = fineness;
+    do next *= 1.002;
+    while (next <= kFinest && cellsAt(next) == cellsAt(fineness));
+    return next;
 }
 
 // Columns and rows may grow at one fineness: then no grid lies between two that differ in both.

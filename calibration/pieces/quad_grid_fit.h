@@ -5,6 +5,8 @@
 #include "calibration/pieces/piece_grid.h"
 #include "calibration/pieces/ray_image.h"
 
+#include <optional>
+
 namespace curvewall {
 
 // Whether vertices on the display's surface make exact quads of every cell of a grid over it.
@@ -17,12 +19,12 @@ public:
     QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
                    const std::stop_token& stop);
 
-    // The coarsest grid that meets the tolerance at the samples of the fit. Throws UsageError where that
-    // takes too many pieces.
-    BalancedPieces coarsest();
+    // The coarsest grid that meets the tolerance at the samples of the fit; nothing where the display breaks,
+    // so that none does. Throws UsageError where that takes too many pieces.
+    std::optional<BalancedPieces> coarsest();
 
-    // The next grid with more cells than the last one returned.
-    BalancedPieces finer();
+    // The next grid with more cells than the last one returned, if that may help.
+    std::optional<BalancedPieces> finer();
 
 private:
     BalancedPieces at(double fineness) const;

@@ -39,6 +39,11 @@ void solveCell(const maths::BilinearCell& cell, CellShape shape, glm::dvec2 valu
 inline double spannedArea(glm::dvec2 a, glm::dvec2 b) { return std::abs(maths::cross2(a, b)); }
 inline double spannedArea(glm::dvec3 a, glm::dvec3 b) { return glm::length(glm::cross(a, b)); }
 
+inline double largestCoordinate(glm::dvec2 a) { return std::max(std::abs(a.x), std::abs(a.y)); }
+inline double largestCoordinate(glm::dvec3 a) {
+    return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+
 // Whether the cell is more than a line or a point, for corners that are good to `noise` (an absolute length).
 template <class Vector>
 bool spansArea(Vector v00, Vector v10, Vector v01, Vector v11, double noise) {
@@ -48,6 +53,17 @@ bool spansArea(Vector v00, Vector v10, Vector v01, Vector v11, double noise) {
     const double extent = std::max(
         {glm::dot(bottom, bottom), glm::dot(left, left), glm::dot(top, top), glm::dot(right, right)});
     return area * area > noise * noise * extent;
+}
+
+// A cell with a corner that is no sample (its x is not a number), or that is no more than a line for values
+// of single precision.
+template <class Vector>
+bool isHoleCell(Vector v00, Vector v10, Vector v01, Vector v11) {
+    constexpr double kFloatRounding = 0x1.0p-22;  // of the numbers in a file
+    if (std::isnan(v00.x + v10.x + v01.x + v11.x)) return true;
+    const double noise = kFloatRounding * std::max({largestCoordinate(v00), largestCoordinate(v10),
+                                                    largestCoordinate(v01), largestCoordinate(v11)});
+    return !spansArea(v00, v10, v01, v11, noise);
 }
 
 }  // namespace curvewall

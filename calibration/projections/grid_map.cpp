@@ -15,11 +15,6 @@ namespace {
 // What a perspective and the blend of four corners may round by, as a share of the largest number in them.
 constexpr double kRounding = 1e-12;
 
-// What the float numbers of a file round by.
-constexpr double kFloatRounding = 0x1.0p-22;
-
-double largest(glm::dvec2 a) { return std::max(std::abs(a.x), std::abs(a.y)); }
-
 }  // namespace
 
 GridMap::GridMap(NumberMap numbers, const NodeMeaning& meaning, glm::ivec2 sizePx, Alignment alignment)
@@ -45,7 +40,7 @@ GridPyramid<2> GridMap::survey() {
     const auto visitCell = [&](glm::dvec2 v00, glm::dvec2 v10, glm::dvec2 v01, glm::dvec2 v11) {
         const double twiceArea = maths::cross2(v11 - v00, v01 - v10);
         facing += (twiceArea > 0) - (twiceArea < 0);
-        hasArea_ = hasArea_ || !isHole({v00, v10, v01, v11});
+        hasArea_ = hasArea_ || !isHoleCell(v00, v10, v01, v11);
     };
     GridPyramid<2> pyramid(
         layout_.cells(), kRounding * kFarthestPx, [this](glm::ivec2 line) { return node(line); }, visitNode,
@@ -54,16 +49,9 @@ GridPyramid<2> GridMap::survey() {
     return pyramid;
 }
 
-bool GridMap::isHole(const Corners& c) {
-    if (std::isnan(c.v00.x + c.v10.x + c.v01.x + c.v11.x)) return true;
-    const double noise =
-        kFloatRounding * std::max({largest(c.v00), largest(c.v10), largest(c.v01), largest(c.v11)});
-    return !spansArea(c.v00, c.v10, c.v01, c.v11, noise);
-}
-
 std::optional<GridMap::Corners> GridMap::corners(glm::ivec2 cell) const {
     const Corners c{node(cell), node(cell + glm::ivec2(1, 0)), node(cell + glm::ivec2(0, 1)), node(cell + 1)};
-    if (isHole(c)) return std::nullopt;
+    if (isHoleCell(c.v00, c.v10, c.v01, c.v11)) return std::nullopt;
     return c;
 }
 
@@ -77,7 +65,7 @@ std::optional<glm::dvec2> GridMap::at(glm::dvec2 px) const {
 // found(CellPosition, determinant of the cell there)
 template <class Found>
 void GridMap::solve(glm::dvec2 value, const Found& found) const {
-    const double slack = std::max(slackPx_, kRounding * largest(value));
+    const double slack = std::max(slackPx_, kRounding * largestCoordinate(value));
     pyramid_.forBlocks([value](const BoxTile<2>& tile) { return boxesAround(tile, glm::vec2(value)); },
                        [&](const CellBlock& block) {
                            solveBlock(

@@ -53,7 +53,6 @@ private:
         glm::dvec2 v00, v10, v01, v11;
     };
     glm::dvec2 node(glm::ivec2 line) const;
-    static bool isHole(const Corners& corners);
     std::optional<Corners> corners(glm::ivec2 cell) const;  // nothing for a hole
     GridPyramid<2> survey();
     template <class Found>

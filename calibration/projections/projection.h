@@ -24,7 +24,8 @@ public:
     virtual std::optional<glm::dvec3> unproject(glm::dvec2 px) const = 0;
 
     // Every screen position that sees the ray, whatever the ray's length: none, one, or several where the
-    // map folds. Positions outside the display's rectangle are answers too; the display does not show them.
+    // map folds. Positions outside the display's rectangle, or in a hole of it where the formula goes on (the
+    // corners around a fisheye's circle), are answers too; the display does not show them.
     // On a full turn x lies in [0, width).
     virtual std::vector<glm::dvec2> project(glm::dvec3 ray) const = 0;
 

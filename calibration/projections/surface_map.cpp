@@ -16,12 +16,8 @@ namespace {
 constexpr double kNoPoint = 1e-5;  // programs that write such maps mark what they did not measure by zeros
 constexpr double kFarthest = 1e12;
 
-// What rounding to float leaves of a point, and what an intersection in double precision rounds by, as shares
-// of the largest coordinate.
-constexpr double kFloatRounding = 0x1.0p-22;
+// What an intersection in double precision rounds by, as a share of the largest coordinate.
 constexpr double kRounding = 1e-12;
-
-double largest(glm::dvec3 a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
 
 glm::dvec3 blend(const MeasuredSurface::Corners& c, glm::dvec2 st) {
     return glm::mix(glm::mix(c.v00, c.v10, st.x), glm::mix(c.v01, c.v11, st.x), st.y);
@@ -84,7 +80,7 @@ glm::dvec3 MeasuredSurface::sample(glm::ivec2 line) const {
     const glm::dvec3 point(number[0], number[1], number[2]);
     const bool isNumber =
         std::abs(point.x) <= kFarthest && std::abs(point.y) <= kFarthest && std::abs(point.z) <= kFarthest;
-    if (isNumber && largest(point) >= kNoPoint) return point;
+    if (isNumber && largestCoordinate(point) >= kNoPoint) return point;
     return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -100,16 +96,9 @@ glm::dvec3 MeasuredSurface::node(glm::ivec2 line) const {
     return sample(line);
 }
 
-bool MeasuredSurface::isHole(const Corners& c) {
-    if (std::isnan(c.v00.x + c.v10.x + c.v01.x + c.v11.x)) return true;
-    const double noise =
-        kFloatRounding * std::max({largest(c.v00), largest(c.v10), largest(c.v01), largest(c.v11)});
-    return !spansArea(c.v00, c.v10, c.v01, c.v11, noise);
-}
-
 std::optional<MeasuredSurface::Corners> MeasuredSurface::corners(glm::ivec2 cell) const {
     const Corners c{node(cell), node(cell + glm::ivec2(1, 0)), node(cell + glm::ivec2(0, 1)), node(cell + 1)};
-    if (isHole(c)) return std::nullopt;
+    if (isHoleCell(c.v00, c.v10, c.v01, c.v11)) return std::nullopt;
     return c;
 }
 
@@ -117,10 +106,10 @@ GridPyramid<3> MeasuredSurface::survey() {
     const auto visitNode = [&](glm::dvec3 point) {
         if (std::isnan(point.x)) return;
         hasSamples_ = true;
-        extent_ = std::max(extent_, largest(point));
+        extent_ = std::max(extent_, largestCoordinate(point));
     };
     const auto visitCell = [&](glm::dvec3 v00, glm::dvec3 v10, glm::dvec3 v01, glm::dvec3 v11) {
-        hasArea_ = hasArea_ || !isHole({v00, v10, v01, v11});
+        hasArea_ = hasArea_ || !isHoleCell(v00, v10, v01, v11);
     };
     return {layout_.cells(), 0, [this](glm::ivec2 line) { return node(line); }, visitNode, visitCell};
 }
@@ -146,7 +135,7 @@ std::optional<glm::dvec3> SurfaceMap::unproject(glm::dvec2 px) const {
 std::vector<glm::dvec2> SurfaceMap::project(glm::dvec3 ray) const {
     const RayLine line(glm::transpose(wallFromSurface_) * ray);
     std::vector<glm::dvec2> positions;
-    const double slack = kRounding * std::max(largest(eye_), surface_->extent());
+    const double slack = kRounding * std::max(largestCoordinate(eye_), surface_->extent());
     surface_->pyramid().forBlocks(
         [&](const BoxTile<3>& tile) { return line.boxesMet(tile, eye_); },
         [&](const CellBlock& block) {

@@ -40,7 +40,6 @@ public:
 
 private:
     glm::dvec3 sample(glm::ivec2 line) const;
-    static bool isHole(const Corners& corners);
     GridPyramid<3> survey();
 
     NumberMap points_;

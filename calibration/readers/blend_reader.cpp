@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/parallel.h"
 #include "calibration/readers/map_file.h"
+#include "calibration/readers/projection_fields.h"
 
 #include <glm/exponential.hpp>
 
@@ -65,12 +66,12 @@ std::vector<glm::vec3> readMap(const std::string& path, glm::vec3 gamma, glm::iv
 }  // namespace
 
 BlendMaps readBlend(JsonFields& fields, const std::filesystem::path& folder, glm::ivec2 sizePx) {
-    const auto alpha = fields.text("alpha"), beta = fields.text("beta");
+    const auto alpha = readPath(fields, "alpha", folder), beta = readPath(fields, "beta", folder);
     const glm::vec3 gamma = readGamma(fields);
     fields.refuseUnknownKeys();
     BlendMaps maps;
-    if (alpha) maps.alpha = readMap((folder / *alpha).string(), gamma, sizePx);
-    if (beta) maps.beta = readMap((folder / *beta).string(), gamma, sizePx);
+    if (alpha) maps.alpha = readMap(*alpha, gamma, sizePx);
+    if (beta) maps.beta = readMap(*beta, gamma, sizePx);
     return maps;
 }
 

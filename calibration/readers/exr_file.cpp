@@ -195,6 +195,7 @@ std::optional<NumberMap> readPlainExr(const std::string& path) {
     auto layout = layoutOf(file.get());
     if (!layout) return std::nullopt;
     NumberMap map = std::move(layout->map);
+    requirePlausibleSize(path, map);
     map.values.resize(static_cast<size_t>(map.sizePx.x) * static_cast<size_t>(map.sizePx.y) *
                       static_cast<size_t>(map.channels));
     ChunkReader reader(file.get(), *layout);

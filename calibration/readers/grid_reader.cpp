@@ -22,7 +22,6 @@ namespace {
 
 constexpr Range kHalfAngleDeg{-89, 89};
 constexpr Range kScale{-1e6, 1e6};
-constexpr int64_t kMostPx = 16384;
 
 struct Choice {
     const char* word;
@@ -30,7 +29,7 @@ struct Choice {
 };
 
 // The place of the file's word among the choices. What differs from program to program has no default.
-size_t requiredChoice(JsonFields& fields, const char* key, std::initializer_list<Choice> choices) {
+size_t requiredMeaning(JsonFields& fields, const char* key, std::initializer_list<Choice> choices) {
     const auto word = fields.text(key);
     size_t place = 0;
     std::string expected;
@@ -44,9 +43,9 @@ size_t requiredChoice(JsonFields& fields, const char* key, std::initializer_list
 }
 
 Alignment readAlignment(JsonFields& fields) {
-    const bool corners = requiredChoice(fields, "alignment",
-                                        {{"centers", "node i of n at (i + 1/2) / n, as texels lie"},
-                                         {"corners", "node i of n at i / (n - 1)"}}) == 1;
+    const bool corners = requiredMeaning(fields, "alignment",
+                                         {{"centers", "node i of n at (i + 1/2) / n, as texels lie"},
+                                          {"corners", "node i of n at i / (n - 1)"}}) == 1;
     return corners ? Alignment::corners : Alignment::centers;
 }
 
@@ -76,7 +75,7 @@ BaseImage readBaseImage(JsonFields& fields) {
     const Pose pose = readPose(fields);
     if (pose.centerM != glm::dvec3(0))
         throw FieldError(FieldError::Kind::value, fields.nameOf("center"),
-                         "[0, 0, 0], since a base image is at infinity", "another point");
+                         "[0, 0, 0], since a base image is at infinity", describe(pose.centerM));
     JsonFields angles = fields.required("base", fields.object("base"));
     const auto angleRad = [&](const char* key) {
         return glm::radians(requiredNumber(angles, key, kHalfAngleDeg));
@@ -93,17 +92,19 @@ BaseImage readBaseImage(JsonFields& fields) {
 
 NodeMeaning readMeaning(JsonFields& fields, glm::dvec2 sizePx, bool isInteger) {
     NodeMeaning meaning;
-    meaning.isOffset = requiredChoice(fields, "semantics",
-                                      {{"offset", "relative to the node"}, {"absolute", "a position"}}) == 0;
-    meaning.bottomRowFirst = requiredChoice(fields, "origin",
-                                            {{"top_left", "top row first, y down"},
-                                             {"bottom_left", "bottom row first, y up"}}) == 1;
-    const bool normalized = requiredChoice(fields, "units",
-                                           {{"px", "pixels of the display"},
-                                            {"normalized", "fractions of its width and height"}}) == 1;
+    meaning.isOffset = requiredMeaning(fields, "semantics",
+                                       {{"offset", "relative to the node"}, {"absolute", "a position"}}) == 0;
+    meaning.bottomRowFirst = requiredMeaning(fields, "origin",
+                                             {{"top_left", "top row first, y down"},
+                                              {"bottom_left", "bottom row first, y up"}}) == 1;
+    const bool normalized = requiredMeaning(fields, "units",
+                                            {{"px", "pixels of the display"},
+                                             {"normalized", "fractions of its width and height"}}) == 1;
     // No program agrees with another on what the integers of a picture stand for.
     const double scale =
         isInteger ? requiredNumber(fields, "scale", kScale) : fields.number("scale", kScale).value_or(1);
+    if (scale == 0)
+        throw FieldError(FieldError::Kind::value, fields.nameOf("scale"), "a number other than 0", "0");
     const double zero = fields.number("zero", kScale).value_or(isInteger ? 0.5 : 0.0);
     meaning.gain = scale * (normalized ? sizePx : glm::dvec2(1));
     meaning.bias = -zero * meaning.gain;
@@ -116,14 +117,14 @@ NodeMeaning readMeaning(JsonFields& fields, glm::dvec2 sizePx, bool isInteger) {
 
 double readUnitM(JsonFields& fields) {
     const std::vector<double> kMetres{1, 0.1, 0.01, 0.001, 0.0254, 0.3048, 0.9144};
-    return kMetres[requiredChoice(fields, "units",
-                                  {{"m", "metres"},
-                                   {"dm", "0.1 m"},
-                                   {"cm", "0.01 m"},
-                                   {"mm", "0.001 m"},
-                                   {"in", "0.0254 m"},
-                                   {"ft", "0.3048 m"},
-                                   {"yd", "0.9144 m"}})];
+    return kMetres[requiredMeaning(fields, "units",
+                                   {{"m", "metres"},
+                                    {"dm", "0.1 m"},
+                                    {"cm", "0.01 m"},
+                                    {"mm", "0.001 m"},
+                                    {"in", "0.0254 m"},
+                                    {"ft", "0.3048 m"},
+                                    {"yd", "0.9144 m"}})];
 }
 
 // Positions of the file to pixels of the display, y down.
@@ -133,10 +134,10 @@ struct ScreenUnits {
 };
 
 ScreenUnits readScreenUnits(JsonFields& fields, glm::dvec2 sizePx) {
-    switch (requiredChoice(fields, "screen_units",
-                           {{"px", "from the top left, y down"},
-                            {"normalized", "0 to 1 from the top left, y down"},
-                            {"aspect", "x from -width/height to width/height, y from -1 to 1 upwards"}})) {
+    switch (requiredMeaning(fields, "screen_units",
+                            {{"px", "from the top left, y down"},
+                             {"normalized", "0 to 1 from the top left, y down"},
+                             {"aspect", "x from -width/height to width/height, y from -1 to 1 upwards"}})) {
         case 0:
             return {glm::dvec2(1), glm::dvec2(0)};
         case 1:
@@ -201,9 +202,9 @@ WarpSource readSource(JsonFields& fields, const ProjectionContext& context) {
 
 ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& context) {
     const BaseImage base = readBaseImage(fields);
-    const bool forward = requiredChoice(fields, "direction",
-                                        {{"forward", "where positions of the base image land"},
-                                         {"inverse", "which of them pixels show"}}) == 0;
+    const bool forward = requiredMeaning(fields, "direction",
+                                         {{"forward", "where positions of the base image land"},
+                                          {"inverse", "which of them pixels show"}}) == 0;
     const Alignment alignment = readAlignment(fields);
     const std::string path = requiredPath(fields, "offsets", context);
     NumberMap numbers = readNodes(path, 2, alignment == Alignment::corners ? 2 : 1);
@@ -219,8 +220,8 @@ ProjectionPtr readSurfaceMap(JsonFields& fields, const ProjectionContext& contex
     const double unitM = readUnitM(fields);
     const Alignment alignment = readAlignment(fields);
     const bool bottomRowFirst =
-        requiredChoice(fields, "origin",
-                       {{"top_left", "top row first"}, {"bottom_left", "bottom row first"}}) == 1;
+        requiredMeaning(fields, "origin",
+                        {{"top_left", "top row first"}, {"bottom_left", "bottom row first"}}) == 1;
     const std::string path = requiredPath(fields, "points", context);
     auto surface = std::make_shared<const MeasuredSurface>(readNodes(path, 3, 2), bottomRowFirst,
                                                            context.sizePx, alignment);
@@ -231,8 +232,8 @@ ProjectionPtr readSurfaceMap(JsonFields& fields, const ProjectionContext& contex
 ReadProjection readWarpMesh(JsonFields& fields, const ProjectionContext& context) {
     const ScreenUnits units = readScreenUnits(fields, context.sizePx);
     const bool sourceFromBottom =
-        requiredChoice(fields, "source_origin",
-                       {{"top_left", "v grows downwards"}, {"bottom_left", "v grows upwards"}}) == 1;
+        requiredMeaning(fields, "source_origin",
+                        {{"top_left", "v grows downwards"}, {"bottom_left", "v grows upwards"}}) == 1;
     const double gamma = fields.number("intensity_gamma", {0, 10, true}).value_or(2.2);
     const WarpSource source = readSource(fields, context);
     const std::string path = requiredPath(fields, "mesh", context);

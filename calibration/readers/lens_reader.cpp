@@ -37,11 +37,6 @@ const std::map<std::string, ModelOfName>& radialModels() {
     return kModels;
 }
 
-std::string requiredChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices) {
-    fields.require(key);
-    return readChoice(fields, key, choices);
-}
-
 double requiredAngleRad(JsonFields& fields, const char* key, Range rangeDeg) {
     return glm::radians(requiredNumber(fields, key, rangeDeg));
 }

@@ -7,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +19,20 @@ constexpr int kMaxChannels = 4;
 constexpr int kPngCompressionLevel = 4;
 
 }  // namespace
+
+void requirePlausibleSize(const std::string& path, const NumberMap& map) {
+    // Deflate packs a thousand bytes into one at best, and a byte of a file may become a float of four.
+    constexpr uint64_t kMostPacked = 8192;
+    std::error_code error;
+    const uint64_t bytes = std::filesystem::file_size(path, error);
+    const uint64_t numbers = static_cast<uint64_t>(map.sizePx.x) * static_cast<uint64_t>(map.sizePx.y) *
+                             static_cast<uint64_t>(map.channels);
+    if (error || numbers * sizeof(float) > bytes * kMostPacked)
+        throw InputError(path, "",
+                         "numbers of " + std::to_string(map.sizePx.x) + " x " + std::to_string(map.sizePx.y) +
+                             " pixels, as its header says",
+                         "a file of " + std::to_string(bytes) + " bytes");
+}
 
 NumberMap readNumberMap(const std::string& path) {
     if (isPfm(path)) return readPfm(path);
@@ -37,6 +52,7 @@ NumberMap readNumberMap(const std::string& path) {
         throw fail("one of " + std::to_string(spec.nchannels) + " channels");
 
     NumberMap map{{spec.width, spec.height}, spec.nchannels, !spec.format.is_floating_point(), {}};
+    requirePlausibleSize(path, map);
     map.values.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
                       static_cast<size_t>(spec.nchannels));
     if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, map.values.data()))

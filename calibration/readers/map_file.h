@@ -24,7 +24,11 @@ struct NumberMap {
     }
 };
 
-// PFM, and every format that OpenImageIO reads. Numbers are not touched: no transfer function, no alpha
+// Throws InputError where the file is too small to hold numbers of that many pixels and channels, however
+// well they are packed: a damaged header must not take all memory there is.
+void requirePlausibleSize(const std::string& path, const NumberMap& map);
+
+// Every format that OpenImageIO reads. Numbers are not touched: no transfer function, no alpha
 // multiplied in. Throws InputError.
 NumberMap readNumberMap(const std::string& path);
 

@@ -61,8 +61,10 @@ NumberMap readPfm(const std::string& path) {
     map.channels = nextWord(in) == "PF" ? 3 : 1;
     const std::string width = nextWord(in), height = nextWord(in), scale = nextWord(in);
     map.sizePx = {parsed<int>(width), parsed<int>(height)};
-    if (map.sizePx.x < 1 || map.sizePx.y < 1 || int64_t{map.sizePx.x} * map.sizePx.y > kMaxMapTexels)
+    if (map.sizePx.x < 1 || map.sizePx.y < 1)
         throw fail("a PFM header with width and height", "\"" + width + " " + height + "\"");
+    if (int64_t{map.sizePx.x} * map.sizePx.y > kMaxMapTexels)
+        throw fail("at most " + std::to_string(kMaxMapTexels) + " pixels", width + " x " + height);
     const auto order = parsed<double>(scale);
     if (!(std::isfinite(order) && order != 0))
         throw fail("a PFM header with a scale other than 0", "\"" + scale + "\"");

@@ -36,8 +36,26 @@ std::string readChoice(JsonFields& fields, const char* key, std::initializer_lis
     throw FieldError(FieldError::Kind::value, fields.nameOf(key), "one of " + expected, "\"" + word + "\"");
 }
 
-std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context) {
-    return (context.folder / fields.required(key, fields.text(key))).string();
+std::string requiredChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices) {
+    fields.require(key);
+    return readChoice(fields, key, choices);
 }
+
+std::optional<std::string> readPath(JsonFields& fields, const char* key,
+                                    const std::filesystem::path& folder) {
+    const auto name = fields.text(key);
+    if (!name) return std::nullopt;
+    std::error_code error;
+    if (name->empty() || !std::filesystem::is_regular_file(folder / *name, error))
+        throw FieldError(FieldError::Kind::value, fields.nameOf(key), "the name of a file that is there",
+                         "\"" + *name + "\"");
+    return (folder / *name).string();
+}
+
+std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context) {
+    return fields.required(key, readPath(fields, key, context.folder));
+}
+
+std::string describe(glm::dvec3 vector) { return describe(nlohmann::json{vector.x, vector.y, vector.z}); }
 
 }  // namespace curvewall

@@ -7,6 +7,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -17,6 +19,7 @@ namespace curvewall {
 inline constexpr double kMostM = 1e7;  // no wall is larger than the earth
 inline constexpr Range kAnywhereM{-kMostM, kMostM};
 inline constexpr Range kLengthM{0, kMostM, true};
+inline constexpr int64_t kMostPx = 16384;         // of a display in each direction
 inline constexpr Range kTurnsDeg{0, 1440, true};  // a panorama may go around more than once
 
 std::optional<glm::dvec3> vector3(JsonFields& fields, const char* key, Range range);
@@ -30,7 +33,14 @@ Pose readPose(JsonFields& fields);
 // One of a few words; the first is the default where the key may be absent.
 std::string readChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices);
 
-// A file that the object must name, as a path that can be opened.
+// The same where the key must be there.
+std::string requiredChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices);
+
+// A file that an object names, relative to the wall file's folder. It must be there.
+std::optional<std::string> readPath(JsonFields& fields, const char* key, const std::filesystem::path& folder);
 std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context);
+
+// As messages quote it.
+std::string describe(glm::dvec3 vector);
 
 }  // namespace curvewall

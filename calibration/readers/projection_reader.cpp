@@ -39,8 +39,7 @@ ProjectionPtr readCylinder(JsonFields& fields, const ProjectionContext& context)
 std::optional<DomeSurface> readSurface(JsonFields& fields) {
     auto surface = fields.object("surface");
     if (!surface) return std::nullopt;
-    surface->require("type");
-    readChoice(*surface, "type", {"sphere"});
+    requiredChoice(*surface, "type", {"sphere"});
     const DomeSurface dome{surface->required("center", vector3(*surface, "center", kAnywhereM)),
                            requiredNumber(*surface, "radius", kLengthM)};
     surface->refuseUnknownKeys();
@@ -57,7 +56,7 @@ ProjectionPtr readThroughLens(JsonFields& fields, const ProjectionContext& conte
         throw FieldError(
             FieldError::Kind::value, fields.nameOf("center"),
             "no place but the origin without a surface, since the picture is then infinitely far",
-            "another place");
+            describe(pose.centerM));
     return std::make_shared<LensProjection>(std::move(lens), pose.orientation);
 }
 

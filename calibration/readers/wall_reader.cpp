@@ -13,8 +13,6 @@
 namespace curvewall {
 namespace {
 
-constexpr int64_t kMostPx = 16384;
-
 std::string readName(JsonFields& fields, const char* key) {
     std::string name = fields.required(key, fields.text(key));
     // Names become parts of file names.

@@ -23,6 +23,9 @@ std::optional<MeshVertex> vertexOf(const json& entry, const std::string& field) 
     for (const json& number : entry)
         if (!number.is_number())
             throw FieldError(FieldError::Kind::shape, field, "numbers", describe(number));
+    constexpr double kMostIntensity = 1000;  // below 0 marks a vertex that is not valid
+    if (entry.size() == 5 && entry[4].get<double>() > kMostIntensity)
+        throw FieldError(FieldError::Kind::value, field, "an intensity of 1000 at most", describe(entry[4]));
     return MeshVertex{{entry[0].get<double>(), entry[1].get<double>()},
                       {entry[2].get<double>(), entry[3].get<double>()},
                       entry.size() == 5 ? entry[4].get<double>() : 1};
@@ -30,7 +33,8 @@ std::optional<MeshVertex> vertexOf(const json& entry, const std::string& field) 
 
 std::array<uint32_t, 3> triangleOf(const json& entry, const std::string& field, size_t vertices) {
     if (!entry.is_array() || entry.size() != 3)
-        throw FieldError(FieldError::Kind::shape, field, "a list of 3 vertex numbers", describe(entry));
+        throw FieldError(FieldError::Kind::shape, field, "a list of 3 vertex numbers",
+                         entry.is_array() ? "a list of " + std::to_string(entry.size()) : describe(entry));
     std::array<uint32_t, 3> triangle{};
     for (size_t i = 0; i < 3; ++i) {
         if (!entry[i].is_number_unsigned() || entry[i].get<uint64_t>() >= vertices)
@@ -45,6 +49,8 @@ MeshFile meshOf(JsonFields fields) {
     MeshFile mesh;
     for (const json& entry : fields.list("vertices"))
         mesh.vertices.push_back(vertexOf(entry, entryOf("vertices", mesh.vertices.size())));
+    if (fields.has("grid") && fields.has("triangles"))
+        throw FieldError(FieldError::Kind::shape, "", "a grid or triangles", "both");
     if (const auto grid = fields.wholeNumbers("grid", 2, 2, kMostVertices)) {
         mesh.grid = {static_cast<int>((*grid)[0]), static_cast<int>((*grid)[1])};
         if (static_cast<size_t>((*grid)[0] * (*grid)[1]) != mesh.vertices.size())

@@ -72,6 +72,9 @@ struct Mistake {
     std::string message;
 };
 
+// GoogleTest would print the bytes, addresses among them, into the names that ctest shows.
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.text; }
+
 class BadDaemonConfig : public DaemonConfigTest, public ::testing::WithParamInterface<Mistake> {};
 
 TEST_P(BadDaemonConfig, IsExplained) {

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -51,6 +52,22 @@ public:
 private:
     int widthPx_;
     std::vector<std::optional<glm::dvec3>> rays_;
+};
+
+// A position sees what a function says; nothing is known of the way back.
+class RayFunctionProjection : public Projection {
+public:
+    using RayAt = std::function<std::optional<glm::dvec3>(glm::dvec2 px)>;
+    explicit RayFunctionProjection(RayAt rayAt) : rayAt_(std::move(rayAt)) {}
+
+    std::optional<glm::dvec3> unproject(glm::dvec2 px) const override { return rayAt_(px); }
+    std::vector<glm::dvec2> project(glm::dvec3) const override { return {}; }
+    ProjectionPtr seenFrom(glm::dvec3) const override {
+        return std::make_shared<RayFunctionProjection>(*this);
+    }
+
+private:
+    RayAt rayAt_;
 };
 
 // A wall of one display.

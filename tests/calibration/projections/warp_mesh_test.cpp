@@ -249,7 +249,9 @@ TEST_F(WarpMeshFile, ErrorsNameTheFileTheFieldAndWhatWasExpected) {
                 HasSubstr("vertices[1]: expected numbers, found \"x\""));
     EXPECT_THAT(complaint(changed("/vertices", json::array())), HasSubstr("vertices: expected a list"));
     EXPECT_THAT(complaint(changed("/colour", 1)), HasSubstr("\"colour\""));
-    EXPECT_THAT(complaint(changed("/triangles", {{0, 1, 2}})), HasSubstr("\"triangles\""));
+    EXPECT_THAT(complaint(changed("/triangles", {{0, 1, 2}})), HasSubstr("a grid or triangles, found both"));
+    EXPECT_THAT(complaint(changed("/vertices/1", {1, 2, 3, 4, 1e300})),
+                HasSubstr("vertices[1]: expected an intensity of 1000 at most, found 1e+300"));
     EXPECT_THAT(complaint({{"vertices", good["vertices"]}}), HasSubstr("a grid or triangles"));
     const auto triangles = [&](const json& list) {
         return json{{"vertices", good["vertices"]}, {"triangles", list}};

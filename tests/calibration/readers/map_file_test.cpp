@@ -69,9 +69,18 @@ TEST_F(MapFile, DamagedPfmIsRefusedWithAReason) {
     EXPECT_THAT(complaintAbout("m.pfm", "Pf\n2 0\n-1\n"), HasSubstr("width and height"));
     EXPECT_THAT(complaintAbout("m.pfm", "Pf\n-2 -1\n-1\n" + numbers), HasSubstr("width and height"));
     EXPECT_THAT(complaintAbout("m.pfm", "Pf\n2x 1\n-1\n" + numbers), HasSubstr("width and height"));
-    EXPECT_THAT(complaintAbout("m.pfm", "Pf\n2000000000 2000000000\n-1\n"), HasSubstr("width and height"));
+    EXPECT_THAT(complaintAbout("m.pfm", "Pf\n2000000000 2000000000\n-1\n"),
+                HasSubstr("at most 268435456 pixels"));
     EXPECT_THAT(complaintAbout("m.pfm", "Pf\n" + std::string(100'000, '1')), HasSubstr("width and height"));
     EXPECT_THAT(complaintAbout("m.pfm", "Pf\n"), HasSubstr("width and height"));
+}
+
+TEST_F(MapFile, AFileTooSmallForWhatItsHeaderSaysIsRefused) {
+    // 100 bytes are enough for 8192 times as many, however well they are packed, and not for more.
+    const std::string path = folder_.write("small.png", std::string(100, 'x'));
+    EXPECT_NO_THROW(requirePlausibleSize(path, NumberMap{{204, 1000}, 1, false, {}}));
+    EXPECT_THROW(requirePlausibleSize(path, NumberMap{{205, 1000}, 1, false, {}}), InputError);
+    EXPECT_THROW(requirePlausibleSize(path, NumberMap{{16384, 16384}, 4, false, {}}), InputError);
 }
 
 TEST_F(MapFile, ExrComesBitByBit) {
