@@ -15,6 +15,8 @@
 
 namespace curvewall {
 
+struct FittedPieces;
+
 enum class Method { piecewise, imageBased, reference };
 
 struct RenderRequest {
@@ -25,8 +27,10 @@ struct RenderRequest {
     Camera camera;
     Method method = Method::piecewise;
     double tolerancePx = kDefaultTolerancePx;  // piecewise
-    int faceSizePx = 0;                        // image-based; 0: from the display's peak pixel density
-    int samples = 1;                           // reference: rays per pixel; raster methods: MSAA samples
+    // Of this display, seen from this eye, at this tolerance; without them the render fits them.
+    std::shared_ptr<const FittedPieces> pieces{};
+    int faceSizePx = 0;  // image-based; 0: from the display's peak pixel density
+    int samples = 1;     // reference: rays per pixel; raster methods: MSAA samples
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
     bool linearOutput = false;  // colour at float precision (EXR) rather than 8-bit sRGB

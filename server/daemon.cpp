@@ -1,5 +1,6 @@
 #include "server/daemon.h"
 
+#include "calibration/pieces/piece_fit.h"
 #include "server/frame_maker.h"
 
 #include <boost/asio/post.hpp>
@@ -38,10 +39,11 @@ HttpHandler handlerFor(const HttpApi& api) {
 
 }  // namespace
 
-Daemon::Daemon(const DaemonConfig& config, MakeRenderFunction makeRender)
+Daemon::Daemon(const DaemonConfig& config, MakeRenderFunction makeRender, FitFunction fit)
     : library_(openLibrary(config.wallsFolder, config.scenesFolder, config.maxCityTriangles)),
-      queue_(queueSettingsFrom(config), std::move(makeRender)),
-      api_(library_, queue_, {config.token, config.maxSamplesPerFrame}),
+      renders_(queueSettingsFrom(config), std::move(makeRender)),
+      fits_(queueSettingsFrom(config), renders_, std::move(fit)),
+      api_(library_, fits_, {config.token, config.maxSamplesPerFrame}),
       server_(context_, config.bindAddress, config.port, limitsFrom(config), handlerFor(api_)),
       sweepTimer_(context_),
       signals_(context_) {
@@ -73,7 +75,8 @@ void Daemon::stop() {
         server_.stop();
         sweepTimer_.cancel();
         signals_.cancel();
-        queue_.stop();
+        fits_.stop();
+        renders_.stop();
     });
 }
 
@@ -81,13 +84,18 @@ void Daemon::sweepLater() {
     sweepTimer_.expires_after(kSweepPeriod);
     sweepTimer_.async_wait([this](boost::system::error_code error) {
         if (error || stopping_) return;
-        queue_.sweep();
+        fits_.sweep();
+        renders_.sweep();
         sweepLater();
     });
 }
 
 int runDaemon(const DaemonConfig& config) {
-    Daemon daemon(config, [count = config.maxLoadedScenes] { return makeFrameMaker(count); });
+    Daemon daemon(
+        config, [count = config.maxLoadedScenes] { return makeFrameMaker(count); },
+        [](const Display& display, double tolerancePx, const std::stop_token& stop) {
+            return fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+        });
     daemon.stopOnSignals();
     std::cout << "listening on " << daemon.url() << std::endl;
     daemon.run();

@@ -1,7 +1,8 @@
 #pragma once
-// `curvewall serve`: one network thread, one render thread.
+// `curvewall serve`: one network thread, one render thread, a few threads that fit pieces.
 
 #include "server/daemon_config.h"
+#include "server/fit_queue.h"
 #include "server/http_api.h"
 #include "server/http_server.h"
 #include "server/library.h"
@@ -18,7 +19,7 @@ namespace curvewall {
 class Daemon {
 public:
     // Listens when it is constructed. Throws std::runtime_error when it cannot.
-    Daemon(const DaemonConfig& config, MakeRenderFunction makeRender);
+    Daemon(const DaemonConfig& config, MakeRenderFunction makeRender, FitFunction fit);
 
     std::string url() const { return server_.url(); }
     uint16_t port() const { return server_.port(); }
@@ -28,7 +29,8 @@ public:
     // Serves, on the calling thread, until it was told to stop and the last answer is delivered.
     void run();
 
-    // From any thread: no new clients, the render in hand is finished, those that wait are refused.
+    // From any thread: no new clients, the render in hand is finished, fits are stopped, those that wait are
+    // refused.
     void stop();
 
 private:
@@ -36,7 +38,8 @@ private:
 
     boost::asio::io_context context_;  // first, because everything below may use it until its own end
     const Library library_;
-    RenderQueue queue_;
+    RenderQueue renders_;
+    FitQueue fits_;
     HttpApi api_;
     HttpServer server_;
     boost::asio::steady_timer sweepTimer_;

@@ -68,7 +68,7 @@ Answer jsonAnswer(const nlohmann::json& value) {
 
 }  // namespace
 
-HttpApi::HttpApi(const Library& library, RenderQueue& queue, Settings settings)
+HttpApi::HttpApi(const Library& library, FitQueue& queue, Settings settings)
     : library_(library), queue_(queue), settings_(std::move(settings)) {}
 
 std::optional<Answer> HttpApi::refuseHead(const Call& call) const {

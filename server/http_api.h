@@ -2,8 +2,8 @@
 // The calls of the network interface (docs/http.md), free of sockets.
 
 #include "server/answer.h"
+#include "server/fit_queue.h"
 #include "server/library.h"
-#include "server/render_queue.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +20,7 @@ public:
     };
 
     // Keeps references to the library and the queue.
-    HttpApi(const Library& library, RenderQueue& queue, Settings settings);
+    HttpApi(const Library& library, FitQueue& queue, Settings settings);
 
     // What can be refused without seeing the body.
     std::optional<Answer> refuseHead(const Call& call) const;
@@ -33,7 +33,7 @@ private:
     void render(const Call& call, std::stop_token abandoned, Reply reply) const;
 
     const Library& library_;
-    RenderQueue& queue_;
+    FitQueue& queue_;
     const Settings settings_;
 };
 

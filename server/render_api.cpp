@@ -148,6 +148,8 @@ std::string_view explain(Refusal::Reason reason) {
             return "too many renders are waiting";
         case Refusal::Reason::late:
             return "the render did not begin before its deadline";
+        case Refusal::Reason::fitting:
+            return "fitting the pieces of this display takes longer than the deadline";
         case Refusal::Reason::abandoned:
             return "the client closed the connection before the render began";
         case Refusal::Reason::stopping:

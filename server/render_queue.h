@@ -21,6 +21,7 @@ struct Refusal {
     enum class Reason {
         full,       // too many jobs wait already
         late,       // the deadline passed before the job began
+        fitting,    // the deadline passed before the display was fitted
         abandoned,  // nobody waits for the answer any more
         stopping,   // the daemon is going away
     };
@@ -36,7 +37,7 @@ public:
 
     struct Settings {
         size_t length = 32;                          // jobs that wait, the one in hand not counted
-        std::chrono::duration<double> deadline{30};  // from submission to the beginning of the render
+        std::chrono::duration<double> deadline{30};  // from arrival to the beginning of the render
         std::function<Clock::time_point()> now = Clock::now;
     };
 
@@ -44,6 +45,7 @@ public:
         RenderCall call;
         std::stop_token abandoned;
         std::function<void(RenderOutcome)> done;  // on any thread; must not throw
+        Clock::time_point arrived{};              // without one: when it is submitted
     };
 
     RenderQueue(Settings settings, MakeRenderFunction makeRender);
@@ -61,15 +63,9 @@ public:
     void stop();
 
 private:
-    struct Waiting {
-        Job job;
-        Clock::time_point submitted;
-    };
-
     void work();
-    std::optional<Waiting> takeNext();
-    RenderOutcome outcomeOf(const Waiting& waiting, RenderFunction& render);
-    std::optional<Refusal::Reason> reasonToRefuse(const Waiting& waiting) const;
+    std::optional<Job> takeNext();
+    RenderOutcome outcomeOf(const Job& job, RenderFunction& render);
     std::chrono::seconds retryAfter() const;  // with the mutex held
 
     const Settings settings_;
@@ -77,12 +73,16 @@ private:
 
     mutable std::mutex mutex_;  // guards what follows, but not thread_
     std::condition_variable changed_;
-    std::deque<Waiting> waiting_;
+    std::deque<Job> waiting_;
     bool rendering_ = false;
     bool stopping_ = false;
     std::deque<Clock::duration> recentRenders_;
 
     std::thread thread_;  // last, so that it starts when all else is there
 };
+
+// Abandoned or late, where it is one of them.
+std::optional<Refusal::Reason> reasonToRefuse(const RenderQueue::Job& job,
+                                              const RenderQueue::Settings& settings);
 
 }  // namespace curvewall

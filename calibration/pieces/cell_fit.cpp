@@ -38,7 +38,8 @@ struct CutDisplay {
 
 class CellFit {
 public:
-    CellFit(const RayImage& rays, double tolerancePx) : rays_(rays), tolerancePx_(tolerancePx) {}
+    CellFit(const RayImage& rays, double tolerancePx, const std::stop_token& stop)
+        : rays_(rays), tolerancePx_(tolerancePx), stop_(stop) {}
 
     PieceMesh fit() {
         double errorPx = kGainOfBalance * tolerancePx_;
@@ -65,6 +66,7 @@ private:
         int axis = -1;
     };
     Decision decide(const Cell& cell, double errorPx) const {
+        throwIfStopped(stop_);
         Decision decision{facetsOf(rays_, cell)};
         if (!decision.facets.isEmpty && !(decision.facets.errorPx <= errorPx))
             decision.axis = bestCut(rays_, cell);
@@ -126,7 +128,7 @@ private:
         const CellMesh cells =
             meshOfCells(display.tree, display.facets, rays_, loose_, kMostDisagreement * tolerancePx_);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
-        mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_).mesh;
+        mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_, stop_).mesh;
         std::vector<uint32_t> failing;
         for (uint32_t piece : piecesThatFail(display, cells.cellOfPiece, mesh))
             failing.push_back(cells.cellOfPiece[piece]);
@@ -197,6 +199,7 @@ private:
     }
 
     void cut(CutDisplay& display, uint32_t id) const {
+        throwIfStopped(stop_);
         const int axis = bestCut(rays_, display.tree.cell(id));
         if (axis < 0) refuseTolerance(tolerancePx_);
         display.tree.cut(id, axis);
@@ -208,12 +211,15 @@ private:
 
     const RayImage& rays_;
     double tolerancePx_;
+    const std::stop_token& stop_;
     std::unordered_set<uint32_t> loose_;
     std::unordered_set<uint32_t> lonePixels_;
 };
 
 }  // namespace
 
-PieceMesh fitCells(const RayImage& rays, double tolerancePx) { return CellFit(rays, tolerancePx).fit(); }
+PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop) {
+    return CellFit(rays, tolerancePx, stop).fit();
+}
 
 }  // namespace curvewall

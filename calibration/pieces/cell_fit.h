@@ -3,10 +3,12 @@
 
 #include "calibration/pieces/certificate.h"
 
+#include <stop_token>
+
 namespace curvewall {
 
 // Pieces whose error is at most the tolerance at every pixel, and of which each pixel with a ray has one.
-// Throws UsageError where that takes more than kMostPieces.
-PieceMesh fitCells(const RayImage& rays, double tolerancePx);
+// Throws UsageError where that takes more than kMostPieces, and FitStopped.
+PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop = {});
 
 }  // namespace curvewall

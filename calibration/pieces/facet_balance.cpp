@@ -1,5 +1,7 @@
 #include "calibration/pieces/facet_balance.h"
 
+#include "calibration/pieces/fit_stop.h"
+
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
@@ -200,11 +202,12 @@ void Motion::addVertex(std::span<const Term> terms) {
 }
 
 BalancedPieces balanceFacets(PieceMesh mesh, const Motion& motion, const std::vector<FacetSample>& all,
-                             double goodEnoughPx) {
+                             double goodEnoughPx, const std::stop_token& stop) {
     const std::vector<FacetSample> samples = usableSamples(mesh, all);
     BalancedPieces best{mesh, std::numeric_limits<double>::infinity()};
     std::vector<double> weights(samples.size(), 1);
     for (int i = 0, idle = 0; i < kIterations && idle < kPatience; ++i) {
+        throwIfStopped(stop);
         const std::vector<double> errors = landingErrorsPx(mesh, samples);
         const double worst = errors.empty() ? 0 : std::ranges::max(errors);
         if (!std::isfinite(worst)) break;

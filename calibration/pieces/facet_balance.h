@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace curvewall {
@@ -51,8 +52,8 @@ struct BalancedPieces {
 // Gauss-Newton steps on the true screen error with Lawson's reweighting lead from the least squares fit
 // towards the smallest maximum (C. L. Lawson, 1961), which ends where it is at most `goodEnoughPx` or
 // hopelessly far from it. Facets keep the side that they turn to the eye; those that are edge-on to begin
-// with are left as they are. Samples come piece by piece.
+// with are left as they are. Samples come piece by piece. Throws FitStopped soon after a stop is requested.
 BalancedPieces balanceFacets(PieceMesh mesh, const Motion& motion, const std::vector<FacetSample>& samples,
-                             double goodEnoughPx);
+                             double goodEnoughPx, const std::stop_token& stop = {});
 
 }  // namespace curvewall

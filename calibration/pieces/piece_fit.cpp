@@ -26,10 +26,10 @@ void certify(const RayImage& rays, FittedPieces& fitted) {
 // Pixel centres may find an error between the samples of the fit: only the certificate decides. False where
 // that is not a matter of a few more cells: the display then unrolls only as far as `unrolls` looked.
 bool fitQuadGrid(const Projection& projection, const RayImage& rays, double tolerancePx,
-                 FittedPieces& fitted) {
+                 const std::stop_token& stop, FittedPieces& fitted) {
     constexpr int kMostRounds = 16;
     const Stopwatch fitting;
-    QuadGridSearch search(projection, rays.sizePx(), tolerancePx);
+    QuadGridSearch search(projection, rays.sizePx(), tolerancePx, stop);
     std::optional<BalancedPieces> found = search.coarsest();
     fitted.fitMs += fitting.ms();
     const Stopwatch certifying;
@@ -50,18 +50,19 @@ void refuseTolerance(double tolerancePx) {
                      std::to_string(kMostPieces) + " pieces");
 }
 
-FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx) {
+FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+                       const std::stop_token& stop) {
     if (!(tolerancePx > 0 && std::isfinite(tolerancePx)))
         throw UsageError("a tolerance must be a number of pixels above 0");
     FittedPieces fitted;
     const Stopwatch sampling;
-    const RayImage rays(projection, sizePx);
+    const RayImage rays(projection, sizePx, stop);
     if (std::ranges::none_of(rays.all(), RayImage::isRay))
         throw UsageError("the display shows nothing: no pixel has a ray");
     fitted.fitMs = sampling.ms();
-    if (unrolls(projection, rays) && fitQuadGrid(projection, rays, tolerancePx, fitted)) return fitted;
+    if (unrolls(projection, rays) && fitQuadGrid(projection, rays, tolerancePx, stop, fitted)) return fitted;
     const Stopwatch fitting;
-    fitted.mesh = fitCells(rays, tolerancePx);
+    fitted.mesh = fitCells(rays, tolerancePx, stop);
     fitted.fitMs += fitting.ms();
     const Stopwatch certifying;
     certify(rays, fitted);

@@ -2,6 +2,7 @@
 // From a projection and a tolerance to certified pieces.
 
 #include "calibration/pieces/certificate.h"
+#include "calibration/pieces/fit_stop.h"
 
 namespace curvewall {
 
@@ -17,8 +18,9 @@ struct FittedPieces {
 inline constexpr int kMostPieces = 200'000;
 
 // Few pieces whose certified maximum is at most `tolerancePx`. Throws UsageError when that would take more
-// than kMostPieces, or when no pixel of the display has a ray.
-FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx);
+// than kMostPieces, or when no pixel of the display has a ray, and FitStopped soon after a stop is requested.
+FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+                       const std::stop_token& stop = {});
 
 // Throws the UsageError of a tolerance that takes too many pieces.
 [[noreturn]] void refuseTolerance(double tolerancePx);

@@ -74,8 +74,9 @@ bool unrolls(const Projection& projection, const RayImage& rays) {
     return isQuadGrid(grid) && hasArea(grid);
 }
 
-QuadGridSearch::QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx)
-    : projection_(projection), profile_(projection, sizePx), tolerancePx_(tolerancePx) {}
+QuadGridSearch::QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+                               const std::stop_token& stop)
+    : projection_(projection), profile_(projection, sizePx), tolerancePx_(tolerancePx), stop_(stop) {}
 
 std::optional<BalancedPieces> QuadGridSearch::coarsest() {
     double next = 0.7;  // balancing halves the error, so about sqrt(1/2)
@@ -108,7 +109,7 @@ BalancedPieces QuadGridSearch::at(double fineness) const {
     const PieceGrid grid = profile_.grid(projection_, static_cast<int>(cells.x), static_cast<int>(cells.y));
     PieceMesh mesh = meshFromGrid(grid, true);
     const std::vector<FacetSample> samples = latticeSamples(projection_, mesh);
-    return balanceFacets(std::move(mesh), quadGridMotion(grid), samples, 0);
+    return balanceFacets(std::move(mesh), quadGridMotion(grid), samples, 0, stop_);
 }
 
 // Whole numbers, but as many as they may be.

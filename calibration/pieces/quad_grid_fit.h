@@ -16,7 +16,8 @@ bool unrolls(const Projection& projection, const RayImage& rays);
 // that line is its fineness; 1 is where facets on the surface would meet the tolerance.
 class QuadGridSearch {
 public:
-    QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx);
+    QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+                   const std::stop_token& stop);
 
     // The coarsest grid that meets the tolerance at the samples of the fit; nothing where the display breaks,
     // so that none does. Throws UsageError where that takes too many pieces.
@@ -35,6 +36,7 @@ private:
     const Projection& projection_;
     BendProfile profile_;
     double tolerancePx_;
+    const std::stop_token& stop_;
     double fineness_ = 0;
 };
 

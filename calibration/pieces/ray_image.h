@@ -9,13 +9,15 @@
 
 #include <cmath>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 namespace curvewall {
 
 class RayImage {
 public:
-    RayImage(const Projection& projection, glm::ivec2 sizePx);
+    // Throws FitStopped soon after a stop is requested.
+    RayImage(const Projection& projection, glm::ivec2 sizePx, const std::stop_token& stop = {});
 
     glm::ivec2 sizePx() const { return sizePx_; }
 

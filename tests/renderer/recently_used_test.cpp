@@ -30,6 +30,19 @@ TEST(RecentlyUsed, KeepsTheLastUsedAndMakesTheOthersAgain) {
     EXPECT_THAT(made, ElementsAre(1, 2, 3, 2));
 }
 
+TEST(RecentlyUsed, FindingIsUsingToo) {
+    RecentlyUsed<int, int> cache(2);
+    const auto put = [&](int key) { cache.get(key, [&] { return std::make_shared<int>(10 * key); }); };
+    EXPECT_EQ(cache.find(1), nullptr);
+    put(1);
+    put(2);
+    ASSERT_NE(cache.find(1), nullptr);
+    EXPECT_EQ(*cache.find(1), 10);
+    put(3);  // 2 goes
+    EXPECT_EQ(cache.find(2), nullptr);
+    EXPECT_NE(cache.find(1), nullptr);
+}
+
 TEST(RecentlyUsed, WhatCannotBeMadeIsTriedAgain) {
     RecentlyUsed<int, int> cache(1);
     EXPECT_THROW(cache.get(1, []() -> std::shared_ptr<int> { throw std::runtime_error("no"); }),

@@ -1,5 +1,8 @@
 // The program itself: `curvewall serve` with a real renderer, many clients, good and bad ones.
 
+#include "server/frame_maker.h"
+#include "server/library.h"
+#include "server/render_api.h"
 #include "tests/server/http_client.h"
 #include "tests/server/small_wall.h"
 #include "tests/support/temporary_folder.h"
@@ -30,6 +33,13 @@ namespace {
 using nlohmann::json;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
+
+// Minutes of fitting.
+constexpr std::string_view kHardWall = R"({
+    "wall": "hard", "eye": [0, 0, 0],
+    "displays": [ { "name": "front", "size": [4000, 4000],
+                    "projection": { "type": "radial", "model": "orthographic", "fov_deg": 180 } } ] })";
+constexpr double kHardPx = 0.05;
 
 // `curvewall serve CONFIG --port PORT`, killed at the end if it still runs.
 class ServeProcess {
@@ -85,6 +95,7 @@ class DaemonE2eTest : public ::testing::Test {
 protected:
     DaemonE2eTest() {
         folder_.write("small.json", kSmallWall);
+        folder_.write("hard.json", kHardWall);
         config_ = folder_.write("daemon.json", R"({"queue": {"length": 64, "deadline_s": 600}})");
         process_ = std::make_unique<ServeProcess>(config_, "0");
         const std::string line = process_->readLine();
@@ -194,6 +205,28 @@ TEST_F(DaemonE2eTest, TheSignalWaitsForTheFrameInHand) {
     EXPECT_EQ(process_->waitForExitCode(), 0);
     // In hand or still waiting: either way there is an answer.
     EXPECT_THAT(client.read().result_int(), AnyOf(200U, 503U));
+}
+
+TEST_F(DaemonE2eTest, ThePicturesAreThoseOfARenderThatFits) {
+    const Library library = openLibrary(folder_.path(), folder_.path("scenes"), 1000);
+    const RenderFunction render = makeFrameMaker(1);
+    HttpClient client(port_);
+    for (const char* eye : {"[0, 0, 0]", "[0.5, 0.2, -0.4]", "[0, 0, 0]"}) {
+        const std::string body = std::string(R"({"wall": "small", "scene": "room", "eye": )") + eye + "}";
+        const std::string expected = render(decodeRenderCall(body, library, 1 << 20)).bytes;
+        for (int i = 0; i < 2; ++i)
+            EXPECT_TRUE(client.render(body).body() == expected) << eye;  // without printing images
+    }
+}
+
+TEST_F(DaemonE2eTest, TheSignalEndsAFitAndOthersDoNotWaitForIt) {
+    HttpClient hard(port_);
+    hard.send(HttpClient::request(
+        "POST", "/v1/render", json{{"wall", "hard"}, {"scene", "room"}, {"tolerance_px", kHardPx}}.dump()));
+    EXPECT_EQ(HttpClient(port_).render(renderBody(0)).result_int(), 200U);
+    process_->terminate();
+    EXPECT_EQ(process_->waitForExitCode(), 0);
+    EXPECT_EQ(hard.read().result_int(), 503U);
 }
 
 TEST_F(DaemonE2eTest, ATakenPortEndsTheSecondDaemon) {

@@ -35,10 +35,15 @@ constexpr double kWaitForGate = -1;
 constexpr double kImpossible = -2;
 constexpr double kBroken = -3;
 constexpr double kLarge = -4;
+constexpr double kEndlessFitPx = 77;  // a tolerance
 constexpr size_t kLargeBytes = size_t{8} << 20;
 
 std::string renderBody(double x, std::string_view wall = "small") {
     return json{{"wall", wall}, {"scene", "room"}, {"camera", {{"position", {x, 0, 0}}}}}.dump();
+}
+
+std::string hardToFit() {
+    return json{{"wall", "small"}, {"scene", "room"}, {"tolerance_px", kEndlessFitPx}}.dump();
 }
 
 class DaemonTest : public ::testing::Test {
@@ -51,9 +56,12 @@ protected:
     }
 
     void start() {
-        daemon_ = std::make_unique<Daemon>(config_, [this]() -> RenderFunction {
-            return [this](const RenderCall& call) { return render(call); };
-        });
+        daemon_ = std::make_unique<Daemon>(
+            config_,
+            [this]() -> RenderFunction { return [this](const RenderCall& call) { return render(call); }; },
+            [this](const Display&, double tolerancePx, const std::stop_token& stop) {
+                return fit(tolerancePx, stop);
+            });
         port_ = daemon_->port();
         thread_ = std::thread([this] { daemon_->run(); });
     }
@@ -79,6 +87,14 @@ protected:
         image.bytes = x == kLarge ? std::string(kLargeBytes, 'x') : "image " + std::to_string(x);
         image.statsJson = "{}";
         return image;
+    }
+
+    FittedPieces fit(double tolerancePx, const std::stop_token& stop) {
+        if (tolerancePx != kEndlessFitPx) return {};
+        std::unique_lock lock(mutex_);
+        std::condition_variable_any stopped;
+        stopped.wait(lock, stop, [] { return false; });
+        throw FitStopped();
     }
 
     void openGate() {
@@ -360,6 +376,29 @@ TEST_F(DaemonTest, ALateRequestIsRefusedBeforeTheOneInHandIsDone) {
     EXPECT_EQ(busy.read().result_int(), 200U);
 }
 
+TEST_F(DaemonTest, ADisplayThatIsHardToFitDoesNotStallOthers) {
+    config_.queueDeadline = std::chrono::seconds(2);
+    start();
+    auto hard = client();
+    hard.send(HttpClient::request("POST", "/v1/render", hardToFit()));
+    EXPECT_EQ(client().render(renderBody(1)).result_int(), 200U);
+    const auto refusal = hard.read();
+    EXPECT_EQ(refusal.result_int(), 503U);
+    EXPECT_EQ(header(refusal, "Retry-After"), "2");
+    EXPECT_THAT(refusal.body(), HasSubstr("longer than the deadline"));
+    EXPECT_EQ(renderedSoFar(), std::vector<double>{1});
+}
+
+TEST_F(DaemonTest, StoppingDoesNotWaitForFits) {
+    config_.queueDeadline = std::chrono::hours(1);
+    start();
+    auto hard = client();
+    hard.send(HttpClient::request("POST", "/v1/render", hardToFit()));
+    EXPECT_EQ(client().render(renderBody(1)).result_int(), 200U);
+    daemon_->stop();
+    thread_.join();
+}
+
 TEST_F(DaemonTest, ARequestOfAClientThatHungUpIsNotRendered) {
     config_.queueDeadline = std::chrono::hours(1);
     start();
@@ -504,7 +543,7 @@ TEST_F(DaemonTest, ATakenPortIsAnError) {
     DaemonConfig second = config_;
     second.port = port_;
     try {
-        Daemon daemon(second, [] { return RenderFunction(); });
+        Daemon daemon(second, [] { return RenderFunction(); }, {});
         FAIL() << "listens twice";
     } catch (const std::runtime_error& error) {
         EXPECT_EQ(error.what(), "127.0.0.1:" + std::to_string(port_) + ": address already in use");

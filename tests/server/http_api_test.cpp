@@ -18,7 +18,7 @@ using ::testing::Pair;
 class HttpApiTest : public ::testing::Test {
 protected:
     Answer answerWith(const std::string& token, const Call& call) {
-        const HttpApi api(library_, queue_, {.token = token});
+        const HttpApi api(library_, fits_, {.token = token});
         std::promise<Answer> promise;
         api.answer(call, {}, [&promise](Answer answer) { promise.set_value(std::move(answer)); });
         return promise.get_future().get();
@@ -33,6 +33,7 @@ protected:
                                return image;
                            };
                        }};
+    FitQueue fits_{{}, queue_, [](const auto&...) { return FittedPieces{}; }};
 };
 
 TEST_F(HttpApiTest, ListsWallsAndScenes) {

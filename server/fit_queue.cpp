@@ -1,0 +1,150 @@
+#include "server/fit_queue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+// The system shares its cores among them, so that a fit of a moment ends beside those of minutes.
+constexpr int kFitsAtOnce = 4;
+// As many as the renderer keeps on the GPU.
+constexpr size_t kFitsKept = 16;
+
+}  // namespace
+
+FitQueue::FitQueue(RenderQueue::Settings settings, RenderQueue& renders, FitFunction fit)
+    : settings_(std::move(settings)), renders_(renders), fit_(std::move(fit)), fitted_(kFitsKept) {
+    for (int i = 0; i < kFitsAtOnce; ++i) threads_.emplace_back([this] { work(); });
+}
+
+FitQueue::~FitQueue() { stop(); }
+
+void FitQueue::submit(RenderQueue::Job job) {
+    job.arrived = settings_.now();
+    if (job.call.request.method != Method::piecewise) return renders_.submit(std::move(job));
+    sweep();
+    const Key key = keyOf(job.call.request);
+    std::unique_lock lock(mutex_);
+    if (const auto fitted = fitted_.find(key)) {
+        lock.unlock();
+        return goOn(std::move(job), *fitted);
+    }
+    if (stopping_ || jobCount() >= settings_.length) {
+        const Refusal refusal{stopping_ ? Refusal::Reason::stopping : Refusal::Reason::full, retryAfter()};
+        lock.unlock();
+        return job.done(refusal);
+    }
+    auto fit = std::ranges::find(fits_, key, [](const auto& each) -> const Key& { return each->key; });
+    if (fit == fits_.end()) {
+        fit = fits_.insert(fit, std::make_shared<Fit>(Fit{key}));
+        changed_.notify_one();
+    }
+    (*fit)->jobs.push_back(std::move(job));
+}
+
+void FitQueue::sweep() {
+    std::vector<std::pair<RenderQueue::Job, Refusal>> refused;
+    {
+        std::scoped_lock lock(mutex_);
+        for (const auto& fit : fits_) {
+            std::erase_if(fit->jobs, [&](RenderQueue::Job& job) {
+                auto reason = reasonToRefuse(job, settings_);
+                if (reason == Refusal::Reason::late && fit->begun) reason = Refusal::Reason::fitting;
+                if (reason) refused.emplace_back(std::move(job), Refusal{*reason, retryAfter()});
+                return reason.has_value();
+            });
+            if (fit->jobs.empty()) fit->stop.request_stop();
+        }
+        std::erase_if(fits_, [](const auto& fit) { return fit->jobs.empty(); });
+    }
+    for (const auto& [job, refusal] : refused) job.done(refusal);
+}
+
+void FitQueue::stop() {
+    std::vector<RenderQueue::Job> refused;
+    {
+        std::scoped_lock lock(mutex_);
+        stopping_ = true;
+        for (const auto& fit : fits_) {
+            fit->stop.request_stop();
+            std::ranges::move(std::exchange(fit->jobs, {}), std::back_inserter(refused));
+        }
+        fits_.clear();
+    }
+    changed_.notify_all();
+    for (const RenderQueue::Job& job : refused)
+        job.done(Refusal{Refusal::Reason::stopping, std::chrono::seconds(1)});
+}
+
+FitQueue::Key FitQueue::keyOf(const RenderRequest& request) {
+    return {request.wall, &findDisplay(*request.wall, request.display), request.eyeM, request.tolerancePx};
+}
+
+std::shared_ptr<const FitQueue::Fitted> FitQueue::fittedFor(const Fit& fit) const {
+    Fitted fitted{fit.key.wall, nullptr};
+    if (fit.key.eyeM) fitted.wall = std::make_shared<const Wall>(seenFrom(*fit.key.wall, *fit.key.eyeM));
+    const Display& display = findDisplay(*fitted.wall, fit.key.display->name);
+    FittedPieces pieces = fit_(display, fit.key.tolerancePx, fit.stop.get_token());
+    pieces.errorsPx = {};  // a float a pixel that no render asks for
+    fitted.pieces = std::make_shared<const FittedPieces>(std::move(pieces));
+    return std::make_shared<const Fitted>(std::move(fitted));
+}
+
+void FitQueue::goOn(RenderQueue::Job job, const Fitted& fitted) {
+    job.call.request.wall = fitted.wall;
+    job.call.request.eyeM.reset();
+    job.call.request.pieces = fitted.pieces;
+    renders_.submit(std::move(job));
+}
+
+void FitQueue::work() {
+    while (const std::shared_ptr<Fit> fit = takeNext()) {
+        std::shared_ptr<const Fitted> fitted;
+        std::exception_ptr failure;
+        try {
+            fitted = fittedFor(*fit);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        std::vector<RenderQueue::Job> jobs;  // none where the fit was stopped
+        {
+            std::scoped_lock lock(mutex_);
+            if (fitted) fitted_.get(fit->key, [&] { return fitted; });
+            jobs.swap(fit->jobs);
+            std::erase(fits_, fit);
+        }
+        for (RenderQueue::Job& job : jobs) {
+            if (fitted)
+                goOn(std::move(job), *fitted);
+            else
+                job.done(failure);
+        }
+    }
+}
+
+std::shared_ptr<FitQueue::Fit> FitQueue::takeNext() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stopping_ || next(); });
+    std::shared_ptr<Fit> fit = next();
+    if (fit) fit->begun = true;
+    return fit;
+}
+
+size_t FitQueue::jobCount() const {
+    size_t count = 0;
+    for (const auto& fit : fits_) count += fit->jobs.size();
+    return count;
+}
+
+std::shared_ptr<FitQueue::Fit> FitQueue::next() const {
+    const auto waiting = std::ranges::find(fits_, false, [](const auto& fit) { return fit->begun; });
+    return waiting == fits_.end() ? nullptr : *waiting;
+}
+
+// By then each that waits now has its answer.
+std::chrono::seconds FitQueue::retryAfter() const {
+    return std::chrono::ceil<std::chrono::seconds>(settings_.deadline);
+}
+
+}  // namespace curvewall
