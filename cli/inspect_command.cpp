@@ -112,7 +112,7 @@ void run(const InspectCommand& command) {
         };
         for (const std::string& option : {command.errorMap, command.rays, command.pieces})
             requireFolderOf(path(option));
-        const FittedPieces fitted = fitPieces(*display->projection, display->sizePx, command.tolerancePx);
+        const FittedPieces fitted = fitPieces(*display, command.tolerancePx);
         if (!command.errorMap.empty()) writeFrame(path(command.errorMap), errorFrame(*display, fitted));
         if (!command.rays.empty()) writeFrame(path(command.rays), rayFrame(*display), OutputKind::position);
         if (!command.pieces.empty()) writePieces(path(command.pieces), fitted.mesh);

@@ -125,10 +125,10 @@ struct Renderer::Impl {
 
     std::shared_ptr<PreparedPieces> preparedPieces(const RenderRequest& request, const Display& display) {
         return pieces.get({request.wall, &display, request.tolerancePx}, [&] {
-            const auto fitted = request.pieces
-                                    ? request.pieces
-                                    : std::make_shared<const FittedPieces>(fitPieces(
-                                          *display.projection, display.sizePx, request.tolerancePx));
+            const auto fitted =
+                request.pieces
+                    ? request.pieces
+                    : std::make_shared<const FittedPieces>(fitPieces(display, request.tolerancePx));
             return std::make_shared<PreparedPieces>(
                 PreparedPieces{fitted->certificate, uploadPieces(fitted->mesh),
                                uploadOwners(fitted->owners, display.sizePx)});

@@ -94,7 +94,7 @@ int runDaemon(const DaemonConfig& config) {
     Daemon daemon(
         config, [count = config.maxLoadedScenes] { return makeFrameMaker(count); },
         [](const Display& display, double tolerancePx, const std::stop_token& stop) {
-            return fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+            return fitPieces(display, tolerancePx, stop);
         });
     daemon.stopOnSignals();
     std::cout << "listening on " << daemon.url() << std::endl;

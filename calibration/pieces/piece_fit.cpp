@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -46,8 +47,18 @@ bool fitQuadGrid(const Projection& projection, const RayImage& rays, double tole
 }  // namespace
 
 void refuseTolerance(double tolerancePx) {
-    throw UsageError("a tolerance of " + std::to_string(tolerancePx) + " px needs more than " +
-                     std::to_string(kMostPieces) + " pieces");
+    std::ostringstream message;
+    message << "a tolerance of " << tolerancePx << " px needs more than " << kMostPieces
+            << " pieces; ask for a larger one, or smooth what was measured";
+    throw UsageError(message.str());
+}
+
+FittedPieces fitPieces(const Display& display, double tolerancePx, const std::stop_token& stop) {
+    try {
+        return fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+    } catch (const UsageError& error) {
+        throw UsageError("display \"" + display.name + "\": " + error.what());
+    }
 }
 
 FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,

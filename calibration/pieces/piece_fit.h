@@ -3,6 +3,7 @@
 
 #include "calibration/pieces/certificate.h"
 #include "calibration/pieces/fit_stop.h"
+#include "calibration/wall.h"
 
 namespace curvewall {
 
@@ -21,6 +22,9 @@ inline constexpr int kMostPieces = 200'000;
 // than kMostPieces, or when no pixel of the display has a ray, and FitStopped soon after a stop is requested.
 FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
                        const std::stop_token& stop = {});
+
+// The same for a display of a wall, whose name such errors begin with.
+FittedPieces fitPieces(const Display& display, double tolerancePx, const std::stop_token& stop = {});
 
 // Throws the UsageError of a tolerance that takes too many pieces.
 [[noreturn]] void refuseTolerance(double tolerancePx);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 namespace curvewall {
 namespace {
@@ -83,6 +84,18 @@ TEST(PieceFit, TolerancesThatNothingCanMeetAreRefused) {
     for (double tolerancePx : {0.0, -1.0, double(NAN), double(INFINITY)})
         EXPECT_THROW(fit(wall, tolerancePx), UsageError);
     EXPECT_THROW(fit(wall, 1e-12), UsageError);
+}
+
+TEST(PieceFit, WhatIsRefusedNamesTheDisplay) {
+    const Wall wall = test::fullCylinderWall({160, 120});
+    try {
+        fitPieces(wall.displays[0], 1e-12);
+        FAIL() << "not refused";
+    } catch (const UsageError& error) {
+        EXPECT_EQ(std::string(error.what()).rfind("display \"front\": a tolerance of 1e-12 px needs more", 0),
+                  0u)
+            << error.what();
+    }
 }
 
 TEST(PieceFit, AFlatScreenAskedForLessThanRoundingIsRefusedOrMet) {
