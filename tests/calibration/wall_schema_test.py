@@ -247,6 +247,8 @@ class SchemaAndReader(unittest.TestCase):
         for mutant, reader in zip(mutants, verdicts, strict=True):
             refused += bool(reader)
             accepted = VALIDATOR.is_valid(mutant.wall)
+            if "the name of a file that is there" in reader and not mutant.must_be_refused:
+                continue  # which files there are is not the schema's business
             if accepted == bool(reader) or (mutant.must_be_refused and accepted):
                 schema = schemas_verdict(mutant.wall)
                 disagreements.append(f"{mutant.what}\n  reader: {reader or 'ok'}\n  schema: {schema or 'ok'}")

@@ -51,13 +51,6 @@ TEST(CellFacets, ACellWithoutARayIsEmptyAndOneRayIsEnough) {
     EXPECT_LT(facets.errorPx, 1e-9);
 }
 
-TEST(CellFacets, APixelAmongNoiseIsRightAlone) {
-    const RayImage rays = imageOf(test::randomRays());
-    for (int y = 0; y < kSizePx.y; ++y)
-        for (int x = 0; x < kSizePx.x; ++x)
-            ASSERT_LT(facetsOf(rays, {{x, y}, {x + 1, y + 1}}).errorPx, 0.011) << x << ", " << y;
-}
-
 TEST(CellFacets, TheErrorIsThatOfTheWorstPixel) {
     // A flat screen but for one pixel, which is 3 px off.
     const RayImage rays = imageOf(test::displaced(test::flatRays(kSizePx), [](glm::dvec2 px) {
