@@ -24,14 +24,17 @@ inline constexpr double kSnapPx = 1.0 / 256;
 // and no rounding in the rasterizer can open a gap.
 inline constexpr double kGuardPx = 0.25;
 
+// Pieces are clipped by one plane an edge, and drivers offer eight.
+inline constexpr uint32_t kMostPieceEdges = 6;
+
 struct PieceVertex {
     glm::dvec3 m;
     glm::dvec2 s;
 };
 
-// A triangle or an exact quad, vertices in order around it.
+// A convex polygon, vertices in order around it. All its m are one affine map of its s, to rounding.
 struct Piece {
-    std::array<uint32_t, 4> vertices{};
+    std::array<uint32_t, kMostPieceEdges> vertices{};
     uint32_t vertexCount = 0;
     glm::dmat3 screenFromRay{1};  // H: (x, y, w) with w = 1 on the facet; behind the eye w is negative
 };
