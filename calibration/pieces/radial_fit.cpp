@@ -354,23 +354,22 @@ private:
     static constexpr int kMostTries = 3, kMostMore = 8;
 
     void searchAround(int rows) {
-        constexpr double kFirst = 1.2, kStep = 1.015, kDensest = 2;
-        double density = kFirst, fails = 0, passes = kDensest;
-        for (int i = 0; i < kMostTries && density < kDensest && rows >= 0; ++i) {
+        constexpr double kFirst = 1.2, kStep = 1.015, kMostStep = 1.3;
+        double density = kFirst, fails = 0, passes = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < kMostTries; ++i) {
             FacetedHeight faceted = relaxed(rows, density);
-            const double errorPx = faceted.errorPx();
-            printf("rows %d density %f n %zu pieces %zu error %f\n", rows, density, faceted.facets().size(),
-                   pieceCount(faceted), errorPx);
-            if (errorPx <= tolerancePx_) {
+            const double ratio = std::clamp(faceted.errorPx() / tolerancePx_, 1 / kMostStep, kMostStep);
+            const bool isFewer = !best_ || pieceCount(faceted) < pieceCount(*best_);
+            if (ratio <= 1) {
                 passes = density;
-                if (!best_ || pieceCount(faceted) < pieceCount(*best_)) best_ = std::move(faceted);
+                density = std::min(density * ratio, density / kStep);
+                if (isFewer) best_ = std::move(faceted);
             } else {
                 fails = density;
-                if (best_ && pieceCount(faceted) >= pieceCount(*best_)) return;
+                density = std::max(density * ratio, density * kStep);
+                if (!isFewer) return;
             }
-            density = std::clamp(density * errorPx / tolerancePx_, fails * kStep,
-                                 std::max(passes / kStep, fails * kStep));
-            if (density >= passes || passes < fails * kStep * kStep) return;
+            if (density <= fails || density >= passes) return;
         }
     }
 

@@ -50,10 +50,13 @@ glm::dmat3 toGlm(const Eigen::Matrix3d& m) {
     return result;
 }
 
-// How far a place lies beside the line of places that its ray allows.
-double asidePx(const Seen& seen, const Eigen::Matrix3d& f) {
+// Whether a place lies beside the line of places that its ray allows, at this distance at most. The ray of
+// the centre allows all lines through it.
+bool isBeside(const Seen& seen, const Eigen::Matrix3d& f, double mostPx) {
     const Eigen::Vector3d line = f.transpose() * Eigen::Vector3d(seen.ray.x, seen.ray.y, seen.ray.z);
-    return std::abs(line.dot(Eigen::Vector3d(seen.px.x, seen.px.y, 1))) / line.head<2>().norm();
+    const double off = std::abs(line.dot(Eigen::Vector3d(seen.px.x, seen.px.y, 1)));
+    const double rounding = 1e-14 * f.norm() * glm::length(glm::dvec3(seen.px, 1));
+    return off <= mostPx * line.head<2>().norm() + rounding;
 }
 
 }  // namespace
@@ -73,8 +76,8 @@ std::optional<RadialMap> RadialMap::of(const Projection& projection, glm::ivec2 
     Eigen::Vector3d values = svd.singularValues();
     values[2] = 0;
     const Eigen::Matrix3d f = svd.matrixU() * values.asDiagonal() * svd.matrixV().transpose() * fromPx;
-    for (const Seen& seen : lattice)
-        if (!(asidePx(seen, f) <= mostAsidePx)) return std::nullopt;
+    if (!std::ranges::all_of(lattice, [&](const Seen& seen) { return isBeside(seen, f, mostAsidePx); }))
+        return std::nullopt;
 
     // F = [c]x P with P square to c, and c F = 0.
     const Eigen::Vector3d c = svd.matrixU().col(2);
@@ -100,8 +103,10 @@ std::optional<RadialMap> RadialMap::of(const Projection& projection, glm::ivec2 
         map.base_ = -map.base_;
         map.flatFromPx_ = -map.flatFromPx_;
     }
+    constexpr double kRounding = 1e-9;
+    const double most = std::abs(side(*first));
     for (const Seen& seen : lattice)
-        if (side(seen) < 0) return std::nullopt;
+        if (side(seen) < -kRounding * most) return std::nullopt;
     return map;
 }
 
