@@ -131,7 +131,7 @@ struct Renderer::Impl {
                     : std::make_shared<const FittedPieces>(fitPieces(display, request.tolerancePx));
             return std::make_shared<PreparedPieces>(
                 PreparedPieces{fitted->certificate, uploadPieces(fitted->mesh),
-                               uploadOwners(fitted->owners, display.sizePx)});
+                               uploadOwners(*fitted->owners, display.sizePx)});
         });
     }
 

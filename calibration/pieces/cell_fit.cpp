@@ -29,37 +29,53 @@ constexpr size_t kFewPixels = 16;
 // Rounds in which cells that fail may hope that balancing mends them. Measured rarely to take more than four.
 constexpr int kHopefulRounds = 6;
 
-// A display cut into cells, each with its own best plane.
-struct CutDisplay {
-    CellTree tree;
-    std::vector<CellFacets> facets;  // of every cell of the tree
-    size_t pieceCount = 0;
-};
-
 class CellFit {
 public:
     CellFit(const RayImage& rays, double tolerancePx, const std::stop_token& stop)
         : rays_(rays), tolerancePx_(tolerancePx), stop_(stop) {}
 
-    PieceMesh fit() {
+    FittedCells fit() {
         double errorPx = kGainOfBalance * tolerancePx_;
         CutDisplay display = bestCuts(errorPx);
-        PieceMesh mesh;
-        std::vector<uint32_t> failing = tryFit(display, mesh);
+        CellMesh pieces;
+        std::vector<uint32_t> failing = tryFit(display, pieces);
         while (shouldAllBeSmaller(display, failing) && errorPx > tolerancePx_) {
             errorPx *= 0.9;
             display = bestCuts(errorPx);
-            failing = tryFit(display, mesh);
+            failing = tryFit(display, pieces);
         }
-        for (int round = 0; !failing.empty(); ++round) {
-            const bool isHopeful = round < kHopefulRounds && !areTiny(display);
-            for (uint32_t cell : failing) refine(display, cell, isHopeful);
-            failing = tryFit(display, mesh);
-        }
-        return mesh;
+        return refined(std::move(display), std::move(pieces), std::move(failing));
+    }
+
+    // Goes on from the cells of an earlier fit, with the planes that their pixels have now.
+    FittedCells fitOn(CutDisplay display, const std::vector<uint32_t>& failing) {
+        const std::vector<uint32_t> whole = display.tree.wholeCells();
+        parallelRanges(static_cast<int>(whole.size()), [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                throwIfStopped(stop_);
+                const uint32_t id = whole[static_cast<size_t>(i)];
+                const Cell& cell = display.tree.cell(id);
+                display.facets[id] =
+                    display.lonePixels.contains(id) ? facetsOfLonePixel(rays_, cell) : facetsOf(rays_, cell);
+            }
+        });
+        for (uint32_t cell : failing) refine(display, cell, true);
+        CellMesh pieces;
+        std::vector<uint32_t> stillFailing = tryFit(display, pieces);
+        return refined(std::move(display), std::move(pieces), std::move(stillFailing));
     }
 
 private:
+    // Cuts the cells that fail, balances and looks again, until none does.
+    FittedCells refined(CutDisplay display, CellMesh pieces, std::vector<uint32_t> failing) {
+        for (int round = 0; !failing.empty(); ++round) {
+            const bool isHopeful = round < kHopefulRounds && !areTiny(display);
+            for (uint32_t cell : failing) refine(display, cell, isHopeful);
+            failing = tryFit(display, pieces);
+        }
+        return {std::move(pieces), std::move(display)};
+    }
+
     // A cell on its own, with the axis to cut it across when it is off by more than `errorPx`; -1 for none.
     struct Decision {
         CellFacets facets;
@@ -76,7 +92,7 @@ private:
     // Cuts cells until the own best plane of each is off by `errorPx` at most. Ends early, and is of no use,
     // when that takes more than `mostPieces`.
     CutDisplay cutTo(double errorPx, glm::ivec2 firstCounts, size_t mostPieces) const {
-        CutDisplay display{CellTree(rays_.sizePx(), firstCounts), {}, 0};
+        CutDisplay display{CellTree(rays_.sizePx(), firstCounts)};
         for (uint32_t begin = 0; begin < display.tree.cellCount() && display.pieceCount <= mostPieces;) {
             const uint32_t end = display.tree.cellCount();
             std::vector<Decision> decisions(end - begin);
@@ -121,17 +137,19 @@ private:
     }
 
     // Balances the facets. The answer is the cells that do not meet the tolerance.
-    std::vector<uint32_t> tryFit(const CutDisplay& display, PieceMesh& mesh) {
+    std::vector<uint32_t> tryFit(CutDisplay& display, CellMesh& pieces) {
         // Nothing goes on from one to the next that is worth the time.
         if (areTiny(display))
-            std::ranges::copy(display.tree.wholeCells(), std::inserter(loose_, loose_.end()));
-        const CellMesh cells =
-            meshOfCells(display.tree, display.facets, rays_, loose_, kMostDisagreement * tolerancePx_);
+            std::ranges::copy(display.tree.wholeCells(), std::inserter(display.loose, display.loose.end()));
+        pieces =
+            meshOfCells(display.tree, display.facets, rays_, display.loose, kMostDisagreement * tolerancePx_);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
-        mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_, stop_).mesh;
+        pieces.mesh = balanceFacets(std::move(pieces.mesh), pieces.motion, pieces.samples,
+                                    kMargin * tolerancePx_, stop_)
+                          .mesh;
         std::vector<uint32_t> failing;
-        for (uint32_t piece : piecesThatFail(display, cells.cellOfPiece, mesh))
-            failing.push_back(cells.cellOfPiece[piece]);
+        for (uint32_t piece : piecesThatFail(display, pieces.cellOfPiece, pieces.mesh))
+            failing.push_back(pieces.cellOfPiece[piece]);
         failing.erase(std::unique(failing.begin(), failing.end()), failing.end());
         return failing;
     }
@@ -181,12 +199,12 @@ private:
         const double goodPx = tolerancePx_ * (isHopeful ? 0.5 : kSafely);
         const double mendablePx = tolerancePx_ * (isHopeful ? kGainOfBalance : kSafely);
         if (display.tree.cell(id).sizePx() == glm::ivec2(1)) {
-            if (!lonePixels_.insert(id).second) refuseTolerance(tolerancePx_);
+            if (!display.lonePixels.insert(id).second) refuseTolerance(tolerancePx_);
             display.facets[id] = facetsOfLonePixel(rays_, display.tree.cell(id));
-            loose_.insert(id);
+            display.loose.insert(id);
             return;
         }
-        if (ownErrorPx(display, id) <= goodPx && loose_.insert(id).second) return;
+        if (ownErrorPx(display, id) <= goodPx && display.loose.insert(id).second) return;
         for (std::vector<uint32_t> tooLarge{id}; !tooLarge.empty();) {
             const uint32_t cell = tooLarge.back();
             tooLarge.pop_back();
@@ -212,14 +230,17 @@ private:
     const RayImage& rays_;
     double tolerancePx_;
     const std::stop_token& stop_;
-    std::unordered_set<uint32_t> loose_;
-    std::unordered_set<uint32_t> lonePixels_;
 };
 
 }  // namespace
 
-PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop) {
+FittedCells fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop) {
     return CellFit(rays, tolerancePx, stop).fit();
+}
+
+FittedCells refitCells(const RayImage& rays, double tolerancePx, CutDisplay cells,
+                       const std::vector<uint32_t>& failing, const std::stop_token& stop) {
+    return CellFit(rays, tolerancePx, stop).fitOn(std::move(cells), failing);
 }
 
 }  // namespace curvewall

@@ -16,6 +16,7 @@ struct Certificate {
     double p99Px = 0;
     double meanPx = 0;
     glm::ivec2 maxAt{0};      // the pixel with the largest error
+    int every = 1;            // it looked at every so many-th row and column, from the first
     int uncoveredPixels = 0;  // with a ray but without a piece
     int holes = 0;            // without a ray
 };

@@ -147,16 +147,28 @@ void limitStep(Eigen::VectorXd& step, const PieceMesh& mesh, const Motion& motio
     }
 }
 
+// Whether a piece ties points that move to points that stay.
+bool isHeld(const PieceMesh& mesh, const Motion& motion) {
+    return std::ranges::any_of(mesh.pieces, [&](const Piece& piece) {
+        const auto moves = [&](uint32_t i) { return !motion.termsOf(piece.vertices[i]).empty(); };
+        for (uint32_t i = 1; i < piece.vertexCount; ++i)
+            if (moves(i) != moves(0)) return true;
+        return false;
+    });
+}
+
 // Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets
-// stay as far from the eye as the wall, for depth is measured by them.
+// stay as far from the eye as the wall, for depth is measured by them. Points that stay hold the others there.
 PieceMesh moved(PieceMesh mesh, const Motion& motion, const Eigen::VectorXd& step, double length) {
     const double distanceM = summedDistanceM(mesh.vertices);
     for (size_t v = 0; v < mesh.vertices.size(); ++v)
         for (const Motion::Term& term : motion.termsOf(v))
             for (int c = 0; c < 3; ++c)
                 mesh.vertices[v].m[c] += length * term.weight * step[3 * Eigen::Index(term.unknown) + c];
-    const double scale = distanceM / summedDistanceM(mesh.vertices);
-    for (PieceVertex& vertex : mesh.vertices) vertex.m *= scale;
+    if (!isHeld(mesh, motion)) {
+        const double scale = distanceM / summedDistanceM(mesh.vertices);
+        for (PieceVertex& vertex : mesh.vertices) vertex.m *= scale;
+    }
     updateHomographies(mesh);
     return mesh;
 }

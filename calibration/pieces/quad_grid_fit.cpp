@@ -74,17 +74,27 @@ bool unrolls(const Projection& projection, const RayImage& rays) {
     return isQuadGrid(grid) && hasArea(grid);
 }
 
+BalancedGrid balancedGrid(const Projection& projection, const BendProfile& profile, glm::ivec2 counts,
+                          const std::stop_token& stop) {
+    const PieceGrid grid = profile.grid(projection, counts.x, counts.y);
+    PieceMesh mesh = meshFromGrid(grid, true);
+    const std::vector<FacetSample> samples = latticeSamples(projection, mesh);
+    Motion motion = quadGridMotion(grid);
+    BalancedPieces pieces = balanceFacets(std::move(mesh), motion, samples, 0, stop);
+    return {std::move(pieces), std::move(motion), counts};
+}
+
 QuadGridSearch::QuadGridSearch(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
                                const std::stop_token& stop)
     : projection_(projection), profile_(projection, sizePx), tolerancePx_(tolerancePx), stop_(stop) {}
 
-std::optional<BalancedPieces> QuadGridSearch::coarsest() {
+std::optional<BalancedGrid> QuadGridSearch::coarsest() {
     double next = 0.7;  // balancing halves the error, so about sqrt(1/2)
     double fails = 0;
-    std::optional<BalancedPieces> found;
+    std::optional<BalancedGrid> found;
     while (next <= kFinest) {
-        BalancedPieces tried = at(next);
-        const double sampledMaxPx = tried.sampledMaxPx;
+        BalancedGrid tried = at(next);
+        const double sampledMaxPx = tried.pieces.sampledMaxPx;
         if (sampledMaxPx <= tolerancePx_) {
             fineness_ = next;
             found = std::move(tried);
@@ -97,19 +107,16 @@ std::optional<BalancedPieces> QuadGridSearch::coarsest() {
     return std::nullopt;
 }
 
-std::optional<BalancedPieces> QuadGridSearch::finer() {
+std::optional<BalancedGrid> QuadGridSearch::finer() {
     fineness_ = nextFiner(fineness_);
     if (fineness_ > kFinest) return std::nullopt;
     return at(fineness_);
 }
 
-BalancedPieces QuadGridSearch::at(double fineness) const {
+BalancedGrid QuadGridSearch::at(double fineness) const {
     const glm::dvec2 cells = cellsAt(fineness);
     if (!(cells.x * cells.y <= kMostPieces)) refuseTolerance(tolerancePx_);
-    const PieceGrid grid = profile_.grid(projection_, static_cast<int>(cells.x), static_cast<int>(cells.y));
-    PieceMesh mesh = meshFromGrid(grid, true);
-    const std::vector<FacetSample> samples = latticeSamples(projection_, mesh);
-    return balanceFacets(std::move(mesh), quadGridMotion(grid), samples, 0, stop_);
+    return balancedGrid(projection_, profile_, glm::ivec2(cells), stop_);
 }
 
 // Whole numbers, but as many as they may be.

@@ -12,6 +12,16 @@ namespace curvewall {
 // Whether vertices on the display's surface make exact quads of every cell of a grid over it.
 bool unrolls(const Projection& projection, const RayImage& rays);
 
+struct BalancedGrid {
+    BalancedPieces pieces;
+    Motion motion;         // m = what its column adds + what its row adds
+    glm::ivec2 counts{0};  // columns and rows
+};
+
+// A grid of so many columns and rows, placed as the bend asks for and balanced.
+BalancedGrid balancedGrid(const Projection& projection, const BendProfile& profile, glm::ivec2 counts,
+                          const std::stop_token& stop);
+
 // Finds the coarsest grid on the line "columns and rows in the proportion that the bend asks for". A place on
 // that line is its fineness; 1 is where facets on the surface would meet the tolerance.
 class QuadGridSearch {
@@ -21,13 +31,13 @@ public:
 
     // The coarsest grid that meets the tolerance at the samples of the fit; nothing where the display breaks,
     // so that none does. Throws UsageError where that takes too many pieces.
-    std::optional<BalancedPieces> coarsest();
+    std::optional<BalancedGrid> coarsest();
 
     // The next grid with more cells than the last one returned, if that may help.
-    std::optional<BalancedPieces> finer();
+    std::optional<BalancedGrid> finer();
 
 private:
-    BalancedPieces at(double fineness) const;
+    BalancedGrid at(double fineness) const;
     glm::dvec2 cellsAt(double fineness) const;
     double nextFiner(double fineness) const;
     bool hasGridBetween(double fails, double passes) const;

@@ -1,0 +1,89 @@
+#include "calibration/pieces/certificate_lattice.h"
+
+#include "calibration/parallel.h"
+#include "calibration/pieces/fit_stop.h"
+#include "calibration/pieces/ownership.h"
+#include "calibration/pieces/ray_image.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace curvewall {
+
+CertificateLattice::CertificateLattice(const Projection& projection, const PieceMesh& mesh,
+                                       const std::vector<int32_t>& owners, int every,
+                                       const std::stop_token& stop)
+    : projection_(projection),
+      every_(every),
+      counts_((mesh.sizePx + every - 1) / every),
+      owners_(static_cast<size_t>(counts_.x) * static_cast<size_t>(counts_.y)),
+      errorsPx_(owners_.size()) {
+    parallelRanges(counts_.y, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            throwIfStopped(stop);
+            for (int x = 0; x < counts_.x; ++x) {
+                const glm::ivec2 px = pixelOf({x, y});
+                const size_t i = indexOf({x, y});
+                owners_[i] = owners[static_cast<size_t>(px.y) * static_cast<size_t>(mesh.sizePx.x) +
+                                    static_cast<size_t>(px.x)];
+                errorsPx_[i] = errorAt(mesh, {x, y});
+            }
+        }
+    });
+    for (size_t i = 0; i < owners_.size() && !outlineHasMoved_; ++i)
+        outlineHasMoved_ = std::isnan(errorsPx_[i]) != (owners_[i] == kNoPiece);
+}
+
+void CertificateLattice::update(const PieceMesh& mesh, const std::vector<uint32_t>& pieces) {
+    for (uint32_t k : pieces) {
+        glm::dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (uint32_t i = 0; i < mesh.pieces[k].vertexCount; ++i) {
+            const glm::dvec2 s = mesh.vertices[mesh.pieces[k].vertices[i]].s;
+            least = glm::min(least, s);
+            most = glm::max(most, s);
+        }
+        const glm::ivec2 from = glm::max(glm::ivec2(glm::floor(least / double(every_))), glm::ivec2(0));
+        const glm::ivec2 to = glm::min(glm::ivec2(glm::floor(most / double(every_))), counts_ - 1);
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x)
+                if (const size_t i = indexOf({x, y}); owners_[i] == static_cast<int32_t>(k))
+                    errorsPx_[i] = errorAt(mesh, {x, y});
+    }
+}
+
+std::vector<CertificateLattice::Failure> CertificateLattice::failures(double tolerancePx) const {
+    std::vector<Failure> all;
+    for (int y = 0; y < counts_.y; ++y)
+        for (int x = 0; x < counts_.x; ++x)
+            if (const size_t i = indexOf({x, y}); owners_[i] != kNoPiece && errorsPx_[i] > tolerancePx)
+                all.push_back({static_cast<uint32_t>(owners_[i]), pixelOf({x, y}), errorsPx_[i]});
+    std::ranges::stable_sort(all, [](const Failure& a, const Failure& b) {
+        return a.piece != b.piece ? a.piece < b.piece : a.errorPx > b.errorPx;
+    });
+    all.erase(std::ranges::unique(all, {}, &Failure::piece).begin(), all.end());
+    return all;
+}
+
+Certificate CertificateLattice::certificate() const {
+    Certificate certificate = certificateOf(errorsPx_, owners_, counts_);
+    certificate.maxAt = pixelOf(certificate.maxAt);
+    certificate.every = every_;
+    return certificate;
+}
+
+float CertificateLattice::errorAt(const PieceMesh& mesh, glm::ivec2 node) const {
+    const glm::dvec2 centre = centreOf(pixelOf(node));
+    const auto ray = projection_.unproject(centre);
+    if (!ray || !(glm::dot(*ray, *ray) > 0) || !std::isfinite(glm::dot(*ray, *ray)))
+        return std::numeric_limits<float>::quiet_NaN();
+    const int32_t owner = owners_[indexOf(node)];
+    if (owner == kNoPiece) return std::numeric_limits<float>::infinity();
+    const glm::dvec3 h = mesh.pieces[static_cast<size_t>(owner)].screenFromRay * *ray;
+    const double px = glm::length(glm::dvec2(h) / h.z - centre);
+    return h.z > 0 && std::isfinite(px) ? static_cast<float>(px) : std::numeric_limits<float>::infinity();
+}
+
+}  // namespace curvewall
