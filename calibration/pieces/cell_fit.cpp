@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace curvewall {
 namespace {
@@ -73,7 +74,62 @@ private:
             for (uint32_t cell : failing) refine(display, cell, isHopeful);
             failing = tryFit(display, pieces);
         }
-        return {std::move(pieces), std::move(display)};
+        return flattened({std::move(pieces), std::move(display)});
+    }
+
+    // Makes one facet of the two of as many cells as the tolerance allows.
+    FittedCells flattened(FittedCells fitted) {
+        constexpr double kSlack = 0.9;  // what the own plane of such a cell may be off, of the tolerance
+        constexpr int kRounds = 14;
+        CutDisplay display = fitted.cells;
+        display.flat.clear();
+        std::vector<std::pair<double, uint32_t>> candidates;
+        for (uint32_t cell : display.tree.wholeCells())
+            if (!display.facets[cell].isEmpty && !display.facets[cell].isThin &&
+                !display.loose.contains(cell))
+                if (const double errorPx = ownErrorPx(display, cell); errorPx <= kSlack * tolerancePx_)
+                    candidates.emplace_back(errorPx, cell);
+        std::ranges::sort(candidates);
+        for (const auto& [errorPx, cell] : candidates) display.flat.push_back(cell);
+        for (int round = 0; round < kRounds && !display.flat.empty(); ++round) {
+            CellMesh pieces;
+            const std::vector<uint32_t> failing = tryFit(display, pieces);
+            if (failing.empty()) return {std::move(pieces), std::move(display)};
+            const std::unordered_set<uint32_t> given = cellsToSplit(display.flat, failing, pieces);
+            std::erase_if(display.flat, [&](uint32_t cell) { return given.contains(cell); });
+        }
+        return fitted;
+    }
+
+    // Of the flat cells those that fail themselves, and those beside others that do.
+    static std::unordered_set<uint32_t> cellsToSplit(const std::vector<uint32_t>& flat,
+                                                     const std::vector<uint32_t>& failing,
+                                                     const CellMesh& pieces) {
+        const std::unordered_set<uint32_t> areFlat(flat.begin(), flat.end());
+        std::unordered_set<uint32_t> split;
+        std::vector<uint32_t> others;
+        for (uint32_t cell : failing)
+            areFlat.contains(cell) ? void(split.insert(cell)) : others.push_back(cell);
+        split.merge(cellsAt(pieces, others));
+        return split;
+    }
+
+    // Cells that share a vertex with one of these.
+    static std::unordered_set<uint32_t> cellsAt(const CellMesh& pieces, const std::vector<uint32_t>& cells) {
+        const std::unordered_set<uint32_t> chosen(cells.begin(), cells.end());
+        const auto verticesOf = [&](size_t k) {
+            const Piece& piece = pieces.mesh.pieces[k];
+            return std::span(piece.vertices).first(piece.vertexCount);
+        };
+        std::vector<bool> touched(pieces.mesh.vertices.size());
+        for (size_t k = 0; k < pieces.mesh.pieces.size(); ++k)
+            if (chosen.contains(pieces.cellOfPiece[k]))
+                for (uint32_t vertex : verticesOf(k)) touched[vertex] = true;
+        std::unordered_set<uint32_t> near = chosen;
+        for (size_t k = 0; k < pieces.mesh.pieces.size(); ++k)
+            if (std::ranges::any_of(verticesOf(k), [&](uint32_t vertex) { return touched[vertex]; }))
+                near.insert(pieces.cellOfPiece[k]);
+        return near;
     }
 
     // A cell on its own, with the axis to cut it across when it is off by more than `errorPx`; -1 for none.
@@ -141,8 +197,8 @@ private:
         // Nothing goes on from one to the next that is worth the time.
         if (areTiny(display))
             std::ranges::copy(display.tree.wholeCells(), std::inserter(display.loose, display.loose.end()));
-        pieces =
-            meshOfCells(display.tree, display.facets, rays_, display.loose, kMostDisagreement * tolerancePx_);
+        pieces = meshOfCells(display.tree, display.facets, rays_, display.loose,
+                             kMostDisagreement * tolerancePx_, display.flat);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
         pieces.mesh = balanceFacets(std::move(pieces.mesh), pieces.motion, pieces.samples,
                                     kMargin * tolerancePx_, stop_)

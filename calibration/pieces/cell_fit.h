@@ -1,5 +1,5 @@
 #pragma once
-// Any display: cells that are cut where the error is, with two facets each.
+// Any display: cells that are cut where the error is, with one facet or two each.
 
 #include "calibration/pieces/cell_mesh.h"
 
@@ -16,6 +16,7 @@ struct CutDisplay {
     size_t pieceCount = 0;
     std::unordered_set<uint32_t> loose{};       // cells that have let go of their neighbours
     std::unordered_set<uint32_t> lonePixels{};  // that have nothing to do with what is around them
+    std::vector<uint32_t> flat{};               // see meshOfCells
 };
 
 struct FittedCells {
@@ -27,8 +28,8 @@ struct FittedCells {
 // Throws UsageError where that takes more than kMostPieces, and FitStopped.
 FittedCells fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop = {});
 
-// The same for a display that has changed a little, from the cells of an earlier fit: those that fail are cut,
-// the others only where the tolerance asks for it.
+// The same for a display that has changed a little, from the cells of an earlier fit: those that fail are
+// cut, the others only where the tolerance asks for it.
 FittedCells refitCells(const RayImage& rays, double tolerancePx, CutDisplay cells,
                        const std::vector<uint32_t>& failing, const std::stop_token& stop = {});
 
