@@ -93,12 +93,28 @@ private:
         for (const auto& [errorPx, cell] : candidates) display.flat.push_back(cell);
         for (int round = 0; round < kRounds && !display.flat.empty(); ++round) {
             CellMesh pieces;
-            const std::vector<uint32_t> failing = tryFit(display, pieces);
+            const std::vector<uint32_t> failing = tryFit(display, pieces, &fitted.pieces.mesh);
             if (failing.empty()) return {std::move(pieces), std::move(display)};
             const std::unordered_set<uint32_t> given = cellsToSplit(display.flat, failing, pieces);
             std::erase_if(display.flat, [&](uint32_t cell) { return given.contains(cell); });
         }
         return fitted;
+    }
+
+    // Cells that were balanced before have their vertices in the same order, where less follows from others.
+    static void startFrom(const PieceMesh& balanced, CellMesh& pieces) {
+        std::vector<glm::dvec3> unknowns(pieces.motion.unknownCount());
+        for (size_t v = 0; v < balanced.vertices.size(); ++v)
+            if (const auto terms = pieces.motion.termsOf(v); terms.size() == 1 && terms.front().weight == 1)
+                unknowns[terms.front().unknown] = balanced.vertices[v].m;
+        for (size_t v = 0; v < balanced.vertices.size(); ++v) {
+            const auto terms = pieces.motion.termsOf(v);
+            if (terms.empty()) continue;
+            pieces.mesh.vertices[v].m = glm::dvec3(0);
+            for (const Motion::Term& term : terms)
+                pieces.mesh.vertices[v].m += term.weight * unknowns[term.unknown];
+        }
+        updateHomographies(pieces.mesh);
     }
 
     // Of the flat cells those that fail themselves, and those beside others that do.
@@ -193,12 +209,13 @@ private:
     }
 
     // Balances the facets. The answer is the cells that do not meet the tolerance.
-    std::vector<uint32_t> tryFit(CutDisplay& display, CellMesh& pieces) {
+    std::vector<uint32_t> tryFit(CutDisplay& display, CellMesh& pieces, const PieceMesh* start = nullptr) {
         // Nothing goes on from one to the next that is worth the time.
         if (areTiny(display))
             std::ranges::copy(display.tree.wholeCells(), std::inserter(display.loose, display.loose.end()));
         pieces = meshOfCells(display.tree, display.facets, rays_, display.loose,
                              kMostDisagreement * tolerancePx_, display.flat);
+        if (start) startFrom(*start, pieces);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
         pieces.mesh = balanceFacets(std::move(pieces.mesh), pieces.motion, pieces.samples,
                                     kMargin * tolerancePx_, stop_)
