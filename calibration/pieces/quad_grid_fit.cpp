@@ -36,7 +36,8 @@ std::vector<FacetSample> latticeSamples(const Projection& projection, const Piec
         for (int i = 0; i <= kLattice; ++i) {
             for (int j = 0; j <= kLattice; ++j) {
                 const double u = double(i) / kLattice, v = double(j) / kLattice;
-                const std::array<double, 4> blend{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+                const std::array<double, kMostPieceEdges> blend{(1 - u) * (1 - v), u * (1 - v), u * v,
+                                                                (1 - u) * v};
                 glm::dvec2 px(0);
                 for (size_t c = 0; c < 4; ++c) px += blend[c] * mesh.vertices[mesh.pieces[k].vertices[c]].s;
                 if (const auto ray = projection.unproject(px)) samples.push_back({k, blend, px, *ray});
