@@ -1,7 +1,8 @@
 #pragma once
 // Any display: cells that are cut where the error is, with two facets each.
 
-#include "calibration/pieces/certificate.h"
+#include "calibration/pieces/piece_mesh.h"
+#include "calibration/pieces/ray_image.h"
 
 #include <stop_token>
 

@@ -2,7 +2,6 @@
 
 #include "calibration/errors.h"
 #include "calibration/pieces/cell_fit.h"
-#include "calibration/pieces/ownership.h"
 #include "calibration/pieces/quad_grid_fit.h"
 #include "calibration/stopwatch.h"
 
@@ -16,32 +15,38 @@
 namespace curvewall {
 namespace {
 
-void certify(const RayImage& rays, FittedPieces& fitted) {
-    fitted.owners = ownerImage(fitted.mesh);
-    for (size_t i = 0; i < fitted.owners.size(); ++i)
-        if (!RayImage::isRay(rays.all()[i])) fitted.owners[i] = kNoPiece;
-    fitted.errorsPx = pieceErrorsPx(rays, fitted.mesh, fitted.owners);
-    fitted.certificate = certificateOf(fitted.errorsPx, fitted.owners, fitted.mesh.sizePx);
+void certify(const Projection& projection, const std::stop_token& stop, FittedPieces& fitted) {
+    const Stopwatch certifying;
+    CertifiedPixels pixels = certifyPieces(projection, fitted.mesh, stop);
+    fitted.owners = std::move(pixels.owners);
+    fitted.errorsPx = std::move(pixels.errorsPx);
+    fitted.certificate = pixels.certificate;
+    fitted.certifyMs += certifying.ms();
 }
 
 // Pixel centres may find an error between the samples of the fit: only the certificate decides. False where
-// that is not a matter of a few more cells: the display then unrolls only as far as `unrolls` looked.
-bool fitQuadGrid(const Projection& projection, const RayImage& rays, double tolerancePx,
+// that is not a matter of a few more cells: the display then unrolls only as far as `unrolls` looked, or has
+// holes.
+bool fitQuadGrid(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
                  const std::stop_token& stop, FittedPieces& fitted) {
     constexpr int kMostRounds = 16;
-    const Stopwatch fitting;
-    QuadGridSearch search(projection, rays.sizePx(), tolerancePx, stop);
+    constexpr int kFewPixels = 8;  // rows and columns apart: they tell of most grids that they will not do
+    const Stopwatch searching;
+    QuadGridSearch search(projection, sizePx, tolerancePx, stop);
+    const auto isTooCoarse = [&](const PieceMesh& mesh) {
+        return certifyPieces(projection, mesh, stop, kFewPixels).certificate.maxPx > tolerancePx;
+    };
     std::optional<BalancedPieces> found = search.coarsest();
-    fitted.fitMs += fitting.ms();
-    const Stopwatch certifying;
-    for (int round = 0; found && round < kMostRounds; ++round) {
+    for (int round = 0; found && round < kMostRounds; ++round, found = search.finer()) {
+        if (isTooCoarse(found->mesh)) continue;
         fitted.mesh = std::move(found->mesh);
-        certify(rays, fitted);
-        if (fitted.certificate.maxPx <= tolerancePx) break;
-        found = search.finer();
+        certify(projection, stop, fitted);
+        if (fitted.certificate.holes > 0) break;
+        if (fitted.certificate.maxPx > tolerancePx) continue;
+        fitted.fitMs = searching.ms() - fitted.certifyMs;
+        return true;
     }
-    fitted.certifyMs = certifying.ms();
-    return found && fitted.certificate.maxPx <= tolerancePx;
+    return false;
 }
 
 }  // namespace
@@ -66,18 +71,16 @@ FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double t
     if (!(tolerancePx > 0 && std::isfinite(tolerancePx)))
         throw UsageError("a tolerance must be a number of pixels above 0");
     FittedPieces fitted;
-    const Stopwatch sampling;
-    const RayImage rays(projection, sizePx, stop);
-    if (std::ranges::none_of(rays.all(), RayImage::isRay))
-        throw UsageError("the display shows nothing: no pixel has a ray");
-    fitted.fitMs = sampling.ms();
-    if (unrolls(projection, rays) && fitQuadGrid(projection, rays, tolerancePx, stop, fitted)) return fitted;
     const Stopwatch fitting;
+    if (unrolls(projection, sizePx) && fitQuadGrid(projection, sizePx, tolerancePx, stop, fitted))
+        return fitted;
+    const RayImage rays(projection, sizePx, stop);
+    if (std::ranges::none_of(rays.all(), PixelRays::isRay))
+        throw UsageError("the display shows nothing: no pixel has a ray");
     fitted.mesh = fitCells(rays, tolerancePx, stop);
-    fitted.fitMs += fitting.ms();
-    const Stopwatch certifying;
-    certify(rays, fitted);
-    fitted.certifyMs = certifying.ms();
+    fitted.fitMs = fitting.ms();
+    fitted.certifyMs = 0;
+    certify(projection, stop, fitted);
     return fitted;
 }
 

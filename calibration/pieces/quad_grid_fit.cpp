@@ -60,13 +60,12 @@ bool hasArea(const PieceGrid& grid) {
 
 }  // namespace
 
-bool unrolls(const Projection& projection, const RayImage& rays) {
-    if (!std::ranges::all_of(rays.all(), RayImage::isRay)) return false;
+bool unrolls(const Projection& projection, glm::ivec2 sizePx) {
     constexpr int kCells = 7;  // at hardly any period that a display may have
-    PieceGrid grid{rays.sizePx(), kCells, kCells, {}};
+    PieceGrid grid{sizePx, kCells, kCells, {}};
     for (int row = 0; row <= kCells; ++row) {
         for (int column = 0; column <= kCells; ++column) {
-            const glm::dvec2 px = glm::dvec2(rays.sizePx() * glm::ivec2(column, row)) / double(kCells);
+            const glm::dvec2 px = glm::dvec2(sizePx * glm::ivec2(column, row)) / double(kCells);
             const auto ray = projection.unproject(px);
             if (!ray) return false;
             grid.vertices.push_back({*ray, px});
