@@ -2,6 +2,7 @@
 // Any display: cells that are cut where the error is, with one facet or two each.
 
 #include "calibration/pieces/cell_mesh.h"
+#include "calibration/pieces/ray_image.h"
 
 #include <stop_token>
 #include <unordered_set>
