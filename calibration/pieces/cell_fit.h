@@ -27,8 +27,8 @@ struct FittedCells {
 // Throws UsageError where that takes more than kMostPieces, and FitStopped.
 FittedCells fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop = {});
 
-// The same for a display that has changed a little, from the cells of an earlier fit: those that fail are cut,
-// the others only where the tolerance asks for it.
+// The same for a display that has changed a little, from the cells of an earlier fit: those that fail are
+// cut, the others only where the tolerance asks for it.
 FittedCells refitCells(const RayImage& rays, double tolerancePx, CutDisplay cells,
                        const std::vector<uint32_t>& failing, const std::stop_token& stop = {});
 

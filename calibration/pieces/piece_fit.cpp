@@ -65,9 +65,9 @@ std::vector<glm::dvec3> vertexRaysOf(const Projection& projection, const PieceMe
 }
 
 std::shared_ptr<const FitBasis> basisOf(FittedCells fit) {
-    return std::make_shared<const FitBasis>(FitBasis{std::move(fit.pieces.motion),
-                                                     std::move(fit.pieces.samples), glm::ivec2(0),
-                                                     std::move(fit.cells), std::move(fit.pieces.cellOfPiece)});
+    return std::make_shared<const FitBasis>(
+        FitBasis{std::move(fit.pieces.motion), std::move(fit.pieces.samples), glm::ivec2(0),
+                 std::move(fit.cells), std::move(fit.pieces.cellOfPiece)});
 }
 
 std::shared_ptr<const FitBasis> basisOf(BalancedGrid grid) {
@@ -77,7 +77,9 @@ std::shared_ptr<const FitBasis> basisOf(BalancedGrid grid) {
 
 FittedPieces fitPieces(const Display& display, double tolerancePx, const std::stop_token& stop) {
     try {
-        return fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+        FittedPieces fitted = fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+        fitted.projection = display.projection;
+        return fitted;
     } catch (const UsageError& error) {
         throw UsageError("display \"" + display.name + "\": " + error.what());
     }

@@ -30,8 +30,7 @@ FacetSample sampleAt(const PieceMesh& mesh, uint32_t piece, glm::dvec2 px) {
     const auto corner = [&](size_t i) {
         return glm::dvec3(mesh.vertices[mesh.pieces[piece].vertices[i]].s, 1);
     };
-    const glm::dvec3 blend =
-        glm::inverse(glm::dmat3(corner(0), corner(1), corner(2))) * glm::dvec3(px, 1);
+    const glm::dvec3 blend = glm::inverse(glm::dmat3(corner(0), corner(1), corner(2))) * glm::dvec3(px, 1);
     return {piece, {blend.x, blend.y, blend.z}, px, {}};
 }
 
@@ -109,8 +108,7 @@ private:
     void placeGridAnew() {
         const Stopwatch fitting;
         const glm::ivec2 sizePx = before_.mesh.sizePx;
-        BalancedGrid grid =
-            balancedGrid(now_, BendProfile(now_, sizePx), before_.basis->gridCounts, stop_);
+        BalancedGrid grid = balancedGrid(now_, BendProfile(now_, sizePx), before_.basis->gridCounts, stop_);
         fitted_.mesh = std::move(grid.pieces.mesh);
         fitted_.basis = basisOf(std::move(grid));
         fitted_.vertexRays = vertexRaysOf(now_, fitted_.mesh);
@@ -193,8 +191,12 @@ FittedPieces refitPieces(const FittedPieces& before, const Projection& now, doub
 
 FittedPieces refitPieces(const FittedPieces& before, const Display& now, double tolerancePx, int every,
                          const std::stop_token& stop) {
+    const bool isTheSame = before.projection == now.projection && before.certificate.maxPx <= tolerancePx;
+    if (isTheSame && before.certificate.every <= every) return before;
     try {
-        return refitPieces(before, *now.projection, tolerancePx, every, stop);
+        FittedPieces fitted = refitPieces(before, *now.projection, tolerancePx, every, stop);
+        fitted.projection = now.projection;
+        return fitted;
     } catch (const UsageError& error) {
         throw UsageError("display \"" + now.name + "\": " + error.what());
     }

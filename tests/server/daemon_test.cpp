@@ -61,7 +61,8 @@ protected:
             [this]() -> RenderFunction { return [this](const RenderCall& call) { return render(call); }; },
             [this](const Display&, double tolerancePx, const std::stop_token& stop) {
                 return fit(tolerancePx, stop);
-            });
+            },
+            [](const FittedPieces& before, const auto&...) { return before; });
         port_ = daemon_->port();
         thread_ = std::thread([this] { daemon_->run(); });
     }
