@@ -544,7 +544,7 @@ TEST_F(DaemonTest, ATakenPortIsAnError) {
     DaemonConfig second = config_;
     second.port = port_;
     try {
-        Daemon daemon(second, [] { return RenderFunction(); }, {});
+        Daemon daemon(second, [] { return RenderFunction(); }, {}, {});
         FAIL() << "listens twice";
     } catch (const std::runtime_error& error) {
         EXPECT_EQ(error.what(), "127.0.0.1:" + std::to_string(port_) + ": address already in use");
