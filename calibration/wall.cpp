@@ -10,6 +10,7 @@ Wall seenFrom(const Wall& wall, glm::dvec3 eyeM) {
     Wall moved = wall;
     moved.eyeM = eyeM;
     for (Display& display : moved.displays) {
+        if (!display.projection->dependsOnEye()) continue;
         try {
             display.projection = display.projection->seenFrom(eyeM);
         } catch (const UsageError& error) {

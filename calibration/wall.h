@@ -31,7 +31,8 @@ struct Wall {
 
 using WallPtr = std::shared_ptr<const Wall>;
 
-// The wall for another eye, in wall coordinates. Throws UsageError where that eye cannot see a display.
+// The wall for another eye, in wall coordinates; displays that are the same from everywhere keep their
+// projection. Throws UsageError where that eye cannot see a display.
 Wall seenFrom(const Wall& wall, glm::dvec3 eyeM);
 
 // The display of that name, or the first one when the name is empty. Throws UsageError that lists the names.

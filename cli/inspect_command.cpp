@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/display_paths.h"
 #include "cli/option_checks.h"
+#include "cli/refit_report.h"
 #include "renderer/image_file.h"
 #include "renderer/render.h"
 
@@ -22,7 +23,9 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -33,6 +36,7 @@ struct InspectCommand {
     std::string wall, display, eye, errorMap, pieces, rays, blend;
     double tolerancePx = kDefaultTolerancePx;
     bool asJson = false;
+    bool refit = false;
 };
 
 json reportOf(const Display& display, double tolerancePx, const FittedPieces& fitted) {
@@ -90,8 +94,7 @@ void writePieces(const std::string& path, const PieceMesh& mesh) {
     if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-Wall wallOf(const InspectCommand& command) {
-    const Wall wall = readWall(command.wall);
+Wall fromEye(const Wall& wall, const InspectCommand& command) {
     return command.eye.empty() ? wall : seenFrom(wall, eyeFromText(command.eye));
 }
 
@@ -99,8 +102,11 @@ void run(const InspectCommand& command) {
     if (!command.blend.empty() && !command.display.empty())
         throw UsageError(
             "--blend needs the whole wall: a mask depends on the displays around; leave out --display");
+    if (command.refit && command.eye.empty())
+        throw UsageError("--refit needs --eye: where the eye goes from the wall's own");
     const Stopwatch loading;
-    const Wall wall = wallOf(command);
+    const Wall ownWall = readWall(command.wall);
+    const Wall wall = fromEye(ownWall, command);
     const double loadMs = loading.ms();
     const std::vector<const Display*> displays = chosenDisplays(wall, command.display);
     if (!command.blend.empty()) makeFolder(command.blend);
@@ -112,14 +118,21 @@ void run(const InspectCommand& command) {
         };
         for (const std::string& option : {command.errorMap, command.rays, command.pieces})
             requireFolderOf(path(option));
-        const FittedPieces fitted = fitPieces(*display, command.tolerancePx);
+        std::optional<FollowedPieces> followed;
+        if (command.refit)
+            followed = followPieces(findDisplay(ownWall, display->name), *display, command.tolerancePx);
+        const FittedPieces fitted =
+            followed ? std::move(followed->pieces) : fitPieces(*display, command.tolerancePx);
         if (!command.errorMap.empty()) writeFrame(path(command.errorMap), errorFrame(*display, fitted));
         if (!command.rays.empty()) writeFrame(path(command.rays), rayFrame(*display), OutputKind::position);
         if (!command.pieces.empty()) writePieces(path(command.pieces), fitted.mesh);
-        if (command.asJson)
-            report["displays"].push_back(reportOf(*display, command.tolerancePx, fitted));
-        else
+        if (command.asJson) {
+            json& entry = report["displays"].emplace_back(reportOf(*display, command.tolerancePx, fitted));
+            if (followed) entry["refit"] = toJson(*followed);
+        } else {
             printReport(*display, command.tolerancePx, fitted);
+            if (followed) printReport(*followed);
+        }
     }
     if (!command.blend.empty()) {
         const BlendMaskFiles files = writeBlendMasks(wall, command.wall, command.blend);
@@ -142,6 +155,8 @@ void addInspectCommand(CLI::App& app) {
     inspect->add_option("--display", command->display, "Display of the wall; all of them without it");
     inspect->add_option("--eye", command->eye,
                         "Where the eye is, x,y,z in wall coordinates, metres; the wall's own without it");
+    inspect->add_flag("--refit", command->refit,
+                      "Fit at the wall's own eye and let the pieces follow to --eye");
     inspect->add_option("--tolerance", command->tolerancePx, "Largest geometric error, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();

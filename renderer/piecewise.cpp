@@ -1,7 +1,8 @@
 #include "renderer/piecewise.h"
 
+#include <utility>
+
 namespace curvewall {
-namespace {
 
 GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, OutputKind output) {
     GeometryPath path{.pairs = pieces.pieceCount > 1, .clipPlanes = pieces.clipPlanes};
@@ -13,19 +14,24 @@ GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, Outpu
     return path;
 }
 
-}  // namespace
-
 PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
                                      SceneLook look, const GpuOwners* owners)
+    : PiecewiseRenderer(
+          scene, pieces, coverage,
+          std::make_shared<const ScenePrograms>(*scene.scene, look, pathThrough(pieces, owners, look.output)),
+          owners) {}
+
+PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
+                                     std::shared_ptr<const ScenePrograms> programs, const GpuOwners* owners)
     : scene_(scene),
       pieces_(pieces),
       coverage_(pieces.pieceCount > 1 ? coverage : nullptr),
       owners_(owners),
-      programs_(*scene.scene, look, pathThrough(pieces, owners, look.output)),
+      programs_(std::move(programs)),
       emptyVertexArray_(makeVertexArray()) {}
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
-    programs_.setFrame(view, pieces_.frontIsClockwise, 2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx));
+    programs_->setFrame(view, pieces_.frontIsClockwise, 2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx));
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     for (int i = 0; i < 8; ++i)
@@ -38,7 +44,7 @@ void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
 }
 
 GLuint PiecewiseRenderer::bindMaterial(const Material& material) const {
-    const ScenePrograms::Chosen chosen = programs_.choose(material);
+    const ScenePrograms::Chosen chosen = programs_->choose(material);
     if (chosen.textured) {
         const auto texture = static_cast<size_t>(material.texture);
         glBindTextureUnit(0, scene_.textures[texture].id());

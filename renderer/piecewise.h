@@ -6,9 +6,13 @@
 #include "renderer/frame_pass.h"
 #include "renderer/scene_programs.h"
 
+#include <memory>
 #include <optional>
 
 namespace curvewall {
+
+// How pieces reach the shaders, which are compiled for that.
+GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, OutputKind output);
 
 // Draws a scene through one piece mesh. A mesh of one piece is one plain draw. The scene and the pieces must
 // outlive it.
@@ -19,6 +23,10 @@ public:
     // OutputKind::coverage and position, where each pixel must be its owner's; elsewhere it may be null.
     PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage, SceneLook look,
                       const GpuOwners* owners);
+
+    // The same with programs that others use too; they must be for pathThrough().
+    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
+                      std::shared_ptr<const ScenePrograms> programs, const GpuOwners* owners);
 
     // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
     void record(const SceneView& view, const FramePass& pass = {});
@@ -36,7 +44,7 @@ private:
     const GpuPieces& pieces_;
     Coverage* coverage_;  // null: one plain draw
     const GpuOwners* owners_;
-    ScenePrograms programs_;
+    std::shared_ptr<const ScenePrograms> programs_;
     GlVertexArray emptyVertexArray_;
 };
 

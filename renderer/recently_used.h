@@ -31,6 +31,14 @@ public:
         return entries_.front().value;
     }
 
+    // Also in the place of another value.
+    void put(const Key& key, std::shared_ptr<Value> value) {
+        if (find(key))
+            entries_.front().value = std::move(value);
+        else
+            get(key, [&] { return std::move(value); });
+    }
+
 private:
     struct Entry {
         Key key;

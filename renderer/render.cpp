@@ -17,6 +17,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -35,6 +36,10 @@ GeometricError errorOf(const Certificate& certificate) {
     return {certificate.maxPx, certificate.p99Px, certificate.meanPx};
 }
 
+double millisecondsSince(std::chrono::steady_clock::time_point time) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - time).count();
+}
+
 Camera cameraOfFrame(const RenderRequest& request, int frame) {
     Camera camera = request.camera;
     camera.orientation.yawRad += 2 * std::numbers::pi * frame / request.frames;
@@ -51,13 +56,15 @@ struct PiecesKey {
     WallPtr wall;
     const Display* display;  // of that wall
     double tolerancePx;
+    std::shared_ptr<const FittedPieces> pieces;  // those that came with the request
     bool operator==(const PiecesKey&) const = default;
 };
 
 struct PreparedPieces {
     Certificate certificate;
+    std::chrono::steady_clock::time_point fullyCertifiedAt;
     GpuPieces gpu;
-    GpuOwners owners;
+    std::shared_ptr<const GpuOwners> owners;  // refits share them
 };
 
 struct DrawKey {
@@ -67,6 +74,13 @@ struct DrawKey {
     bool operator==(const DrawKey&) const = default;
 };
 
+struct ProgramsKey {
+    Style style;
+    OutputKind output;
+    GeometryPath path;
+    bool operator==(const ProgramsKey&) const = default;
+};
+
 // A scene on the GPU with all that is made for it, so that it goes as one.
 struct PreparedScene {
     explicit PreparedScene(const ScenePtr& scene) : gpu(uploadScene(scene)), coverage(gpu) {}
@@ -74,6 +88,7 @@ struct PreparedScene {
     GpuScene gpu;
     Coverage coverage;
     RecentlyUsed<DrawKey, PiecewiseRenderer> draws{16};
+    RecentlyUsed<ProgramsKey, const ScenePrograms> programs{16};
 };
 
 // Waits until the GPU has done everything recorded so far.
@@ -117,6 +132,7 @@ struct Renderer::Impl {
     RecentlyUsed<ScenePtr, ReferenceRenderer> references;
     RecentlyUsed<BlendMapsPtr, const GpuBlend> blends{16};
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
+    RecentlyUsed<OwnersPtr, const GpuOwners> owners{16};
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
 
     std::shared_ptr<PreparedScene> preparedScene(const ScenePtr& scene) {
@@ -124,14 +140,24 @@ struct Renderer::Impl {
     }
 
     std::shared_ptr<PreparedPieces> preparedPieces(const RenderRequest& request, const Display& display) {
-        return pieces.get({request.wall, &display, request.tolerancePx}, [&] {
+        return pieces.get({request.wall, &display, request.tolerancePx, request.pieces}, [&] {
             const auto fitted =
                 request.pieces
                     ? request.pieces
                     : std::make_shared<const FittedPieces>(fitPieces(display, request.tolerancePx));
-            return std::make_shared<PreparedPieces>(
-                PreparedPieces{fitted->certificate, uploadPieces(fitted->mesh),
-                               uploadOwners(*fitted->owners, display.sizePx)});
+            const auto gpuOwners = owners.get(fitted->owners, [&] {
+                return std::make_shared<const GpuOwners>(uploadOwners(*fitted->owners, display.sizePx));
+            });
+            return std::make_shared<PreparedPieces>(PreparedPieces{
+                fitted->certificate, fitted->fullyCertifiedAt, uploadPieces(fitted->mesh), gpuOwners});
+        });
+    }
+
+    // Programs do not depend on where the pieces are, so that an eye that moves compiles nothing.
+    static std::shared_ptr<const ScenePrograms> programsFor(PreparedScene& scene, SceneLook look,
+                                                            const GeometryPath& path) {
+        return scene.programs.get({look.style, look.output, path}, [&] {
+            return std::make_shared<const ScenePrograms>(*scene.gpu.scene, look, path);
         });
     }
 
@@ -158,8 +184,10 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const auto prepared = preparedPieces(request, display);
     const auto renderer = scene->draws.get({prepared, request.style, request.output}, [&] {
         const SceneLook look{request.style, request.output};
-        return std::make_shared<PiecewiseRenderer>(scene->gpu, prepared->gpu, &scene->coverage, look,
-                                                   &prepared->owners);
+        return std::make_shared<PiecewiseRenderer>(
+            scene->gpu, prepared->gpu, &scene->coverage,
+            programsFor(*scene, look, pathThrough(prepared->gpu, prepared->owners.get(), look.output)),
+            prepared->owners.get());
     });
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
@@ -191,6 +219,8 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     stats.tolerancePx = request.tolerancePx;
     stats.geometricError = errorOf(prepared->certificate);
     stats.pieces = prepared->gpu.pieceCount;
+    stats.certificateEvery = prepared->certificate.every;
+    stats.fullCertificateAgeMs = millisecondsSince(prepared->fullyCertifiedAt);
     return result;
 }
 

@@ -29,6 +29,8 @@ struct GeometryPath {
     bool pairs = false;  // (triangle, piece) pairs; otherwise one piece, plain vertices
     int clipPlanes = 0;
     PixelRight right = PixelRight::all;
+
+    bool operator==(const GeometryPath&) const = default;
 };
 
 // Only what the look reads is fetched: a flat material has no texture coordinates, depth has no normals.

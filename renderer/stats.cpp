@@ -5,7 +5,7 @@
 namespace curvewall {
 
 nlohmann::json toJson(const RenderStats& stats) {
-    return {
+    nlohmann::json json = {
         {"method", stats.method},
         {"engine", stats.engine},
         {"tolerance_px", stats.tolerancePx},
@@ -25,6 +25,10 @@ nlohmann::json toJson(const RenderStats& stats) {
         {"prepare_ms", stats.prepareMs},
         {"gl_renderer", stats.glRenderer},
         {"peak_memory_mib", stats.peakMemoryMib}};
+    if (stats.method == "piecewise")
+        json["certificate"] = {{"every", stats.certificateEvery},
+                               {"full_age_ms", stats.fullCertificateAgeMs}};
+    return json;
 }
 
 }  // namespace curvewall

@@ -1,6 +1,6 @@
 #include "server/daemon.h"
 
-#include "calibration/pieces/piece_fit.h"
+#include "calibration/pieces/piece_refit.h"
 #include "server/frame_maker.h"
 
 #include <boost/asio/post.hpp>
@@ -39,10 +39,11 @@ HttpHandler handlerFor(const HttpApi& api) {
 
 }  // namespace
 
-Daemon::Daemon(const DaemonConfig& config, MakeRenderFunction makeRender, FitFunction fit)
+Daemon::Daemon(const DaemonConfig& config, MakeRenderFunction makeRender, FitFunction fit,
+               RefitFunction refit)
     : library_(openLibrary(config.wallsFolder, config.scenesFolder, config.maxCityTriangles)),
       renders_(queueSettingsFrom(config), std::move(makeRender)),
-      fits_(queueSettingsFrom(config), renders_, std::move(fit)),
+      fits_(queueSettingsFrom(config), renders_, std::move(fit), std::move(refit)),
       api_(library_, fits_, {config.token, config.maxSamplesPerFrame}),
       server_(context_, config.bindAddress, config.port, limitsFrom(config), handlerFor(api_)),
       sweepTimer_(context_),
@@ -95,7 +96,9 @@ int runDaemon(const DaemonConfig& config) {
         config, [count = config.maxLoadedScenes] { return makeFrameMaker(count); },
         [](const Display& display, double tolerancePx, const std::stop_token& stop) {
             return fitPieces(display, tolerancePx, stop);
-        });
+        },
+        [](const FittedPieces& before, const Display& now, double tolerancePx, int every,
+           const std::stop_token& stop) { return refitPieces(before, now, tolerancePx, every, stop); });
     daemon.stopOnSignals();
     std::cout << "listening on " << daemon.url() << std::endl;
     daemon.run();

@@ -19,7 +19,7 @@ namespace curvewall {
 class Daemon {
 public:
     // Listens when it is constructed. Throws std::runtime_error when it cannot.
-    Daemon(const DaemonConfig& config, MakeRenderFunction makeRender, FitFunction fit);
+    Daemon(const DaemonConfig& config, MakeRenderFunction makeRender, FitFunction fit, RefitFunction refit);
 
     std::string url() const { return server_.url(); }
     uint16_t port() const { return server_.port(); }

@@ -1,5 +1,7 @@
 #include "server/fit_queue.h"
 
+#include "calibration/pieces/piece_refit.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -13,8 +15,13 @@ constexpr size_t kFitsKept = 16;
 
 }  // namespace
 
-FitQueue::FitQueue(RenderQueue::Settings settings, RenderQueue& renders, FitFunction fit)
-    : settings_(std::move(settings)), renders_(renders), fit_(std::move(fit)), fitted_(kFitsKept) {
+FitQueue::FitQueue(RenderQueue::Settings settings, RenderQueue& renders, FitFunction fit, RefitFunction refit)
+    : settings_(std::move(settings)),
+      renders_(renders),
+      fit_(std::move(fit)),
+      refit_(std::move(refit)),
+      fitted_(kFitsKept),
+      latest_(kFitsKept) {
     for (int i = 0; i < kFitsAtOnce; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -71,6 +78,8 @@ void FitQueue::stop() {
             std::ranges::move(std::exchange(fit->jobs, {}), std::back_inserter(refused));
         }
         fits_.clear();
+        for (const auto& completion : completions_) completion->stop.request_stop();
+        completions_.clear();
     }
     changed_.notify_all();
     for (const RenderQueue::Job& job : refused)
@@ -78,14 +87,19 @@ void FitQueue::stop() {
 }
 
 FitQueue::Key FitQueue::keyOf(const RenderRequest& request) {
-    return {request.wall, &findDisplay(*request.wall, request.display), request.eyeM, request.tolerancePx};
+    return {{request.wall, &findDisplay(*request.wall, request.display), request.tolerancePx}, request.eyeM};
 }
 
-std::shared_ptr<const FitQueue::Fitted> FitQueue::fittedFor(const Fit& fit) const {
-    Fitted fitted{fit.key.wall, nullptr};
-    if (fit.key.eyeM) fitted.wall = std::make_shared<const Wall>(seenFrom(*fit.key.wall, *fit.key.eyeM));
-    const Display& display = findDisplay(*fitted.wall, fit.key.display->name);
-    FittedPieces pieces = fit_(display, fit.key.tolerancePx, fit.stop.get_token());
+std::shared_ptr<const FitQueue::Fitted> FitQueue::fittedFor(const Fit& fit, const Fitted* before) const {
+    const Screen& screen = fit.key.screen;
+    Fitted fitted{fit.sparse ? fit.sparse->wall : screen.wall, nullptr};
+    if (fit.key.eyeM && !fit.sparse)
+        fitted.wall = std::make_shared<const Wall>(seenFrom(*screen.wall, *fit.key.eyeM));
+    const Display& display = findDisplay(*fitted.wall, screen.display->name);
+    const int every = fit.sparse ? 1 : kSparseRows;
+    FittedPieces pieces =
+        before ? refit_(*before->pieces, display, screen.tolerancePx, every, fit.stop.get_token())
+               : fit_(display, screen.tolerancePx, fit.stop.get_token());
     pieces.errorsPx = {};  // a float a pixel that no render asks for
     fitted.pieces = std::make_shared<const FittedPieces>(std::move(pieces));
     return std::make_shared<const Fitted>(std::move(fitted));
@@ -100,19 +114,24 @@ void FitQueue::goOn(RenderQueue::Job job, const Fitted& fitted) {
 
 void FitQueue::work() {
     while (const std::shared_ptr<Fit> fit = takeNext()) {
-        std::shared_ptr<const Fitted> fitted;
+        std::shared_ptr<const Fitted> before = fit->sparse, fitted;
+        if (fit->key.eyeM && !before) {
+            std::scoped_lock lock(mutex_);
+            before = latest_.find(fit->key.screen);
+        }
         std::exception_ptr failure;
         try {
-            fitted = fittedFor(*fit);
+            fitted = fittedFor(*fit, before.get());
         } catch (...) {
             failure = std::current_exception();
         }
         std::vector<RenderQueue::Job> jobs;  // none where the fit was stopped
         {
             std::scoped_lock lock(mutex_);
-            if (fitted) fitted_.get(fit->key, [&] { return fitted; });
+            if (fitted) keep(*fit, fitted);
             jobs.swap(fit->jobs);
             std::erase(fits_, fit);
+            std::erase(completions_, fit);
         }
         for (RenderQueue::Job& job : jobs) {
             if (fitted)
@@ -121,6 +140,19 @@ void FitQueue::work() {
                 job.done(failure);
         }
     }
+}
+
+// Where the eye has gone on while a certificate was completed, the next refit starts from there all the same:
+// that is the certificate whose age is told, and where cells were cut they will be wanted again.
+void FitQueue::keep(const Fit& fit, const std::shared_ptr<const Fitted>& fitted) {
+    const Screen& screen = fit.key.screen;
+    fitted_.put(fit.key, fitted);
+    latest_.put(screen, fitted);
+    if (fitted->pieces->certificate.every == 1) return;
+    // Only the latest eye's certificate is worth the time.
+    std::erase_if(completions_, [&](const auto& each) { return !each->begun && each->key.screen == screen; });
+    completions_.push_back(std::make_shared<Fit>(Fit{.key = fit.key, .sparse = fitted}));
+    changed_.notify_one();
 }
 
 std::shared_ptr<FitQueue::Fit> FitQueue::takeNext() {
@@ -139,7 +171,16 @@ size_t FitQueue::jobCount() const {
 
 std::shared_ptr<FitQueue::Fit> FitQueue::next() const {
     const auto waiting = std::ranges::find(fits_, false, [](const auto& fit) { return fit->begun; });
-    return waiting == fits_.end() ? nullptr : *waiting;
+    if (waiting != fits_.end()) return *waiting;
+    const auto completion = std::ranges::find_if(completions_, [this](const auto& each) {
+        return !each->begun && !isBeingCompleted(each->key.screen);
+    });
+    return completion == completions_.end() ? nullptr : *completion;
+}
+
+bool FitQueue::isBeingCompleted(const Screen& screen) const {
+    return std::ranges::any_of(completions_,
+                               [&](const auto& each) { return each->begun && each->key.screen == screen; });
 }
 
 // By then each that waits now has its answer.

@@ -1,6 +1,8 @@
 #pragma once
 // Renders whose display is not fitted yet wait here, and not before the thread that draws: a hard display
-// takes minutes. Each job that is submitted gets exactly one outcome, here or from the render queue.
+// takes minutes. Where only the eye has moved, the pieces are refitted instead, and certified at every pixel
+// when nothing else waits. Each job that is submitted gets exactly one outcome, here or from the render
+// queue.
 
 #include "calibration/pieces/piece_fit.h"
 #include "renderer/recently_used.h"
@@ -22,11 +24,15 @@ namespace curvewall {
 // As fitPieces. Called on several threads at once.
 using FitFunction = std::function<FittedPieces(const Display&, double tolerancePx, const std::stop_token&)>;
 
+// As refitPieces. Called on several threads at once.
+using RefitFunction = std::function<FittedPieces(const FittedPieces& before, const Display& now,
+                                                 double tolerancePx, int every, const std::stop_token&)>;
+
 class FitQueue {
 public:
     // Keeps a reference to the queue that fitted jobs go on to. The settings are those of that queue: the
     // deadline counts from the submission here.
-    FitQueue(RenderQueue::Settings settings, RenderQueue& renders, FitFunction fit);
+    FitQueue(RenderQueue::Settings settings, RenderQueue& renders, FitFunction fit, RefitFunction refit);
     ~FitQueue();  // as stop(), then waits for the fits in hand, which end soon
     FitQueue(const FitQueue&) = delete;
     FitQueue& operator=(const FitQueue&) = delete;
@@ -43,11 +49,17 @@ public:
     void stop();
 
 private:
-    struct Key {
+    // What pieces of another eye may be refitted to.
+    struct Screen {
         WallPtr wall;
         const Display* display;  // of that wall
-        std::optional<glm::dvec3> eyeM;
         double tolerancePx;
+        bool operator==(const Screen&) const = default;
+    };
+
+    struct Key {
+        Screen screen;
+        std::optional<glm::dvec3> eyeM;
         bool operator==(const Key&) const = default;
     };
 
@@ -59,27 +71,35 @@ private:
     struct Fit {
         Key key;
         std::vector<RenderQueue::Job> jobs{};
+        std::shared_ptr<const Fitted> sparse{};  // whose certificate it completes; then it has no jobs
         std::stop_source stop{};
         bool begun = false;
     };
 
     static Key keyOf(const RenderRequest& request);
-    std::shared_ptr<const Fitted> fittedFor(const Fit& fit) const;
+    std::shared_ptr<const Fitted> fittedFor(const Fit& fit, const Fitted* before) const;
     void goOn(RenderQueue::Job job, const Fitted& fitted);
     void work();
     std::shared_ptr<Fit> takeNext();
-    size_t jobCount() const;            // with the mutex held
-    std::shared_ptr<Fit> next() const;  // with the mutex held; null where none waits
+
+    // With the mutex held.
+    size_t jobCount() const;
+    std::shared_ptr<Fit> next() const;  // null where none waits
+    bool isBeingCompleted(const Screen& screen) const;
+    void keep(const Fit& fit, const std::shared_ptr<const Fitted>& fitted);
     std::chrono::seconds retryAfter() const;
 
     const RenderQueue::Settings settings_;
     RenderQueue& renders_;
     const FitFunction fit_;
+    const RefitFunction refit_;
 
     std::mutex mutex_;  // guards what follows, but not threads_
     std::condition_variable changed_;
-    std::vector<std::shared_ptr<Fit>> fits_;  // that a job waits for, in the order in which they came
+    std::vector<std::shared_ptr<Fit>> fits_;         // that a job waits for, in the order in which they came
+    std::vector<std::shared_ptr<Fit>> completions_;  // at most one of a screen that has not begun
     RecentlyUsed<Key, const Fitted> fitted_;
+    RecentlyUsed<Screen, const Fitted> latest_;  // which refits start from
     bool stopping_ = false;
 
     std::vector<std::jthread> threads_;  // last, so that they start when all else is there

@@ -67,6 +67,10 @@ std::vector<CertificateLattice::Failure> CertificateLattice::failures(double tol
     return all;
 }
 
+bool CertificateLattice::isEmpty() const {
+    return std::ranges::all_of(errorsPx_, [](float errorPx) { return std::isnan(errorPx); });
+}
+
 Certificate CertificateLattice::certificate() const {
     Certificate certificate = certificateOf(errorsPx_, owners_, counts_);
     certificate.maxAt = pixelOf(certificate.maxAt);

@@ -34,6 +34,9 @@ public:
     // Whether pixels have a ray and no piece, or a piece and no ray.
     bool outlineHasMoved() const { return outlineHasMoved_; }
 
+    // Whether no pixel of the lattice has a ray.
+    bool isEmpty() const;
+
     Certificate certificate() const;
 
     // Row by row; of every pixel of the display where it looks at each.

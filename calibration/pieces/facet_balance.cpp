@@ -160,7 +160,8 @@ bool isHeld(const PieceMesh& mesh, const Motion& motion) {
 }
 
 // Scaling all points about the eye changes nothing on the screen, so a step may drift that way; the facets
-// stay as far from the eye as the wall, for depth is measured by them. Points that stay hold the others there.
+// stay as far from the eye as the wall, for depth is measured by them. Points that stay hold the others
+// there.
 PieceMesh moved(PieceMesh mesh, const Motion& motion, const Eigen::VectorXd& step, double length) {
     const double distanceM = summedDistanceM(mesh.vertices);
     for (size_t v = 0; v < mesh.vertices.size(); ++v)

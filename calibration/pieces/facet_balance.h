@@ -48,12 +48,12 @@ struct BalancedPieces {
     double sampledMaxPx = 0;  // over the samples that the fit could use
 };
 
-// Vertices keep their screen positions; their points m move in three dimensions, as `motion` allows, and those
-// that it gives no terms stay where they are.
-// Gauss-Newton steps on the true screen error with Lawson's reweighting lead from the least squares fit
-// towards the smallest maximum (C. L. Lawson, 1961), which ends where it is at most `goodEnoughPx` or
-// hopelessly far from it. Facets keep the side that they turn to the eye; those that are edge-on to begin
-// with are left as they are. Samples come piece by piece. Throws FitStopped soon after a stop is requested.
+// Vertices keep their screen positions; their points m move in three dimensions, as `motion` allows, and
+// those that it gives no terms stay where they are. Gauss-Newton steps on the true screen error with Lawson's
+// reweighting lead from the least squares fit towards the smallest maximum (C. L. Lawson, 1961), which ends
+// where it is at most `goodEnoughPx` or hopelessly far from it. Facets keep the side that they turn to the
+// eye; those that are edge-on to begin with are left as they are. Samples come piece by piece. Throws
+// FitStopped soon after a stop is requested.
 BalancedPieces balanceFacets(PieceMesh mesh, const Motion& motion, const std::vector<FacetSample>& samples,
                              double goodEnoughPx, const std::stop_token& stop = {});
 

@@ -29,8 +29,7 @@ std::vector<uint32_t> piecesMovedBy(const PieceMesh& mesh, const Motion& motion,
 
 }  // namespace
 
-FacetPatch::FacetPatch(const PieceMesh& whole, const Motion& motion, std::vector<uint32_t> centre,
-                       int rings)
+FacetPatch::FacetPatch(const PieceMesh& whole, const Motion& motion, std::vector<uint32_t> centre, int rings)
     : pieces_(std::move(centre)) {
     std::vector<bool> isFree(motion.unknownCount());
     for (int ring = 0; ring <= rings; ++ring) {

@@ -103,7 +103,9 @@ std::shared_ptr<const FitBasis> basisOf(BalancedGrid grid) {
 
 FittedPieces fitPieces(const Display& display, double tolerancePx, const std::stop_token& stop) {
     try {
-        return fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+        FittedPieces fitted = fitPieces(*display.projection, display.sizePx, tolerancePx, stop);
+        fitted.projection = display.projection;
+        return fitted;
     } catch (const UsageError& error) {
         throw UsageError("display \"" + display.name + "\": " + error.what());
     }

@@ -36,6 +36,7 @@ struct FittedPieces {
     std::chrono::steady_clock::time_point fullyCertifiedAt{};  // when every pixel was looked at last
 
     // For refitPieces (piece_refit.h).
+    ProjectionPtr projection;  // where they are those of a display
     std::shared_ptr<const FitBasis> basis;
     std::vector<glm::dvec3> vertexRays;  // what the display shows at the vertices; NaN where nothing
 };

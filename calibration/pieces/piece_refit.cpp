@@ -46,9 +46,9 @@ public:
         if (before_.basis->gridCounts != glm::ivec2(0)) {
             placeGridAnew();
             if (isCertified()) return certified();
-        } else if (before_.basis->cells) {
+        } else if (before_.basis->cells && !lattice_->isEmpty()) {
             for (int rings : kRings)
-                if (mend(rings)) return certified();
+                if (canBeMended() && mend(rings)) return certified();
             cutCells();
             if (isCertified()) return certified();
         }
@@ -76,8 +76,13 @@ private:
             lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
         }
         fitted_.certifyMs += certifying.ms();
-        return failing().empty();
+        return isCovered() && failing().empty();
     }
+
+    // Where a display shows more than before, there may be no cell with pieces. One that shows nothing any
+    // more is none of a refit's business.
+    bool isCovered() const { return !lattice_->outlineHasMoved() && !lattice_->isEmpty(); }
+    bool canBeMended() const { return isCovered() && turnedOver().empty(); }
 
     void takeOwners(const RayImage& rays) {
         std::vector<int32_t> owners = ownerImage(fitted_.mesh);
@@ -119,7 +124,6 @@ private:
 
     // Balances the pieces that fail and those around them. True where none fails any more.
     bool mend(int rings) {
-        if (!turnedOver().empty()) return false;
         const Stopwatch fitting;
         FacetPatch patch(fitted_.mesh, fitted_.basis->motion, failing(), rings);
         patch.balance(samplesOf(patch), kMargin * tolerancePx_, stop_);
@@ -192,8 +196,12 @@ FittedPieces refitPieces(const FittedPieces& before, const Projection& now, doub
 
 FittedPieces refitPieces(const FittedPieces& before, const Display& now, double tolerancePx, int every,
                          const std::stop_token& stop) {
+    const bool isTheSame = before.projection == now.projection && before.certificate.maxPx <= tolerancePx;
+    if (isTheSame && before.certificate.every <= every) return before;
     try {
-        return refitPieces(before, *now.projection, tolerancePx, every, stop);
+        FittedPieces fitted = refitPieces(before, *now.projection, tolerancePx, every, stop);
+        fitted.projection = now.projection;
+        return fitted;
     } catch (const UsageError& error) {
         throw UsageError("display \"" + now.name + "\": " + error.what());
     }

@@ -29,8 +29,10 @@ public:
     // On a full turn x lies in [0, width).
     virtual std::vector<glm::dvec2> project(glm::dvec3 ray) const = 0;
 
-    // The same display seen from another eye (metres, wall coordinates); what is large is shared. A display
-    // that only knows directions is the same from everywhere. Throws UsageError where the eye cannot see it.
+    // Whether it is another from another eye. One that only knows directions is the same from everywhere.
+    virtual bool dependsOnEye() const { return true; }
+
+    // The same display seen from another eye (metres, wall coordinates); what is large is shared. Throws UsageError where the eye cannot see it.
     virtual std::shared_ptr<const Projection> seenFrom(glm::dvec3 eyeM) const = 0;
 };
 

@@ -74,6 +74,7 @@ public:
 
     std::optional<glm::dvec3> unproject(glm::dvec2 px) const override;
     std::vector<glm::dvec2> project(glm::dvec3 ray) const override;
+    bool dependsOnEye() const override { return source_->dependsOnEye(); }
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
 private:

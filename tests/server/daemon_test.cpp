@@ -61,7 +61,8 @@ protected:
             [this]() -> RenderFunction { return [this](const RenderCall& call) { return render(call); }; },
             [this](const Display&, double tolerancePx, const std::stop_token& stop) {
                 return fit(tolerancePx, stop);
-            });
+            },
+            [](const FittedPieces& before, const auto&...) { return before; });
         port_ = daemon_->port();
         thread_ = std::thread([this] { daemon_->run(); });
     }
@@ -543,7 +544,7 @@ TEST_F(DaemonTest, ATakenPortIsAnError) {
     DaemonConfig second = config_;
     second.port = port_;
     try {
-        Daemon daemon(second, [] { return RenderFunction(); }, {});
+        Daemon daemon(second, [] { return RenderFunction(); }, {}, {});
         FAIL() << "listens twice";
     } catch (const std::runtime_error& error) {
         EXPECT_EQ(error.what(), "127.0.0.1:" + std::to_string(port_) + ": address already in use");

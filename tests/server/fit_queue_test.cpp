@@ -23,7 +23,7 @@ using Reason = Refusal::Reason;
 // only the test moves.
 class FitQueueTest : public ::testing::Test {
 protected:
-    static constexpr double kQuickPx = 1, kSlowPx = 2, kImpossiblePx = 3;
+    static constexpr double kQuickPx = 1, kSlowPx = 2, kImpossiblePx = 3, kCompletedPx = 4;
 
     FitQueueTest() {
         settings_.length = 4;
@@ -37,10 +37,30 @@ protected:
                 return image;
             };
         });
-        fits_.emplace(settings_, *renders_,
-                      [this](const Display& display, double tolerancePx, const std::stop_token& stop) {
-                          return fit(display, tolerancePx, stop);
-                      });
+        fits_.emplace(
+            settings_, *renders_,
+            [this](const Display& display, double tolerancePx, const std::stop_token& stop) {
+                return fit(display, tolerancePx, stop);
+            },
+            [this](const FittedPieces& before, const Display&, double, int every,
+                   const std::stop_token& stop) { return refit(before, every, stop); });
+    }
+
+    // The sparse ones at once; those over every pixel wait for openGate().
+    FittedPieces refit(const FittedPieces& before, int every, const std::stop_token& stop) {
+        std::unique_lock lock(mutex_);
+        FittedPieces pieces = before;
+        pieces.certificate.every = every;
+        ++refitCount_;
+        changed_.notify_all();
+        if (every > 1) return pieces;
+        ++completing_;
+        changed_.wait(lock, stop, [this] { return gateOpen_; });
+        if (stop.stop_requested()) throw FitStopped();
+        pieces.certificate.maxPx = kCompletedPx;
+        ++completedCount_;
+        changed_.notify_all();
+        return pieces;
     }
 
     // A slow one lasts until openGate() or until it is stopped.
@@ -63,17 +83,22 @@ protected:
     }
 
     std::future<RenderOutcome> submit(double tolerancePx, Method method = Method::piecewise,
-                                      std::stop_token abandoned = {}) {
+                                      std::stop_token abandoned = {}, std::optional<glm::dvec3> eyeM = {}) {
         auto promise = std::make_shared<std::promise<RenderOutcome>>();
         RenderQueue::Job job;
         job.call.request.wall = library_.walls.at("small");
         job.call.request.method = method;
         job.call.request.tolerancePx = tolerancePx;
+        job.call.request.eyeM = eyeM;
         job.abandoned = std::move(abandoned);
         job.done = [promise](RenderOutcome outcome) { promise->set_value(std::move(outcome)); };
         std::future<RenderOutcome> outcome = promise->get_future();
         fits_->submit(std::move(job));
         return outcome;
+    }
+
+    std::future<RenderOutcome> submitFrom(double eyeXM) {
+        return submit(kQuickPx, Method::piecewise, {}, glm::dvec3(eyeXM, 0, 0));
     }
 
     void waitUntil(const std::atomic<int>& counter, int count) {
@@ -101,6 +126,7 @@ protected:
     std::condition_variable_any changed_;
     bool gateOpen_ = false;
     std::atomic<int> fitCount_ = 0, stoppedCount_ = 0;
+    std::atomic<int> refitCount_ = 0, completing_ = 0, completedCount_ = 0;
     RenderQueue::Settings settings_;
     std::optional<RenderQueue> renders_;
     std::optional<FitQueue> fits_;
@@ -194,6 +220,48 @@ TEST_F(FitQueueTest, StoppingStopsFitsAndRefusesAll) {
     EXPECT_EQ(refusalOf(submit(kQuickPx)).reason, Reason::stopping);
     fits_.reset();
     EXPECT_EQ(stoppedCount_, 1);
+}
+
+TEST_F(FitQueueTest, AnEyeThatMovesIsFollowedByRefits) {
+    EXPECT_NO_THROW(imageOf(submitFrom(0)));
+    EXPECT_EQ(fitCount_, 1);
+    EXPECT_EQ(refitCount_, 0);
+    EXPECT_EQ(imageOf(submitFrom(0.01)), "pieces of " + std::to_string(kQuickPx));
+    EXPECT_EQ(imageOf(submitFrom(0.01)), "pieces of " + std::to_string(kQuickPx));
+    EXPECT_EQ(fitCount_, 1);
+    waitUntil(completing_, 1);
+    EXPECT_EQ(refitCount_, 2);  // the sparse one and the one that completes it
+}
+
+TEST_F(FitQueueTest, WhatCompletesACertificateTakesItsPlace) {
+    EXPECT_NO_THROW(imageOf(submitFrom(0)));
+    EXPECT_NO_THROW(imageOf(submitFrom(0.01)));
+    openGate();
+    waitUntil(completedCount_, 1);
+    const std::string completed = "pieces of " + std::to_string(kCompletedPx);
+    while (imageOf(submitFrom(0.01)) != completed) std::this_thread::yield();  // it is kept a moment later
+    EXPECT_EQ(imageOf(submitFrom(0.02)), completed);                           // and refits start from it
+}
+
+TEST_F(FitQueueTest, OnlyTheLatestEyesCertificateIsCompleted) {
+    EXPECT_NO_THROW(imageOf(submitFrom(0)));
+    EXPECT_NO_THROW(imageOf(submitFrom(0.01)));
+    waitUntil(completing_, 1);
+    for (const double xM : {0.02, 0.03, 0.04}) EXPECT_NO_THROW(imageOf(submitFrom(xM)));
+    EXPECT_EQ(completing_, 1);  // one of a display at a time
+    openGate();
+    waitUntil(completedCount_, 2);
+    EXPECT_NO_THROW(imageOf(submit(kSlowPx)));  // the queue still works
+    fits_.reset();
+    EXPECT_EQ(completedCount_, 2);
+}
+
+TEST_F(FitQueueTest, StoppingStopsWhatCompletesCertificates) {
+    EXPECT_NO_THROW(imageOf(submitFrom(0)));
+    EXPECT_NO_THROW(imageOf(submitFrom(0.01)));
+    waitUntil(completing_, 1);
+    fits_.reset();
+    EXPECT_EQ(completedCount_, 0);
 }
 
 TEST_F(FitQueueTest, EveryJobOfManyThreadsGetsOneOutcome) {

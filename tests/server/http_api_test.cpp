@@ -33,7 +33,10 @@ protected:
                                return image;
                            };
                        }};
-    FitQueue fits_{{}, queue_, [](const auto&...) { return FittedPieces{}; }};
+    FitQueue fits_{{},
+                   queue_,
+                   [](const auto&...) { return FittedPieces{}; },
+                   [](const FittedPieces& before, const auto&...) { return before; }};
 };
 
 TEST_F(HttpApiTest, ListsWallsAndScenes) {

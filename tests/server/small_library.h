@@ -2,6 +2,7 @@
 // A library without files: the wall "small" with the displays "left" and "right", the scene "model".
 
 #include "server/library.h"
+#include "tests/support/test_projections.h"
 
 #include <memory>
 
@@ -13,6 +14,7 @@ inline Library smallLibrary() {
         Display display;
         display.name = name;
         display.sizePx = {100, 50};
+        display.projection = std::make_shared<PinholeProjection>(display.sizePx, 50);
         wall->displays.push_back(display);
     }
     Library library;

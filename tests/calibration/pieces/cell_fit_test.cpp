@@ -29,7 +29,7 @@ void expectCertified(const FittedPieces& fitted, const test::RayAt& rayAt, doubl
     for (int y = 0; y < fitted.mesh.sizePx.y; ++y) {
         for (int x = 0; x < fitted.mesh.sizePx.x; ++x) {
             const size_t i = rays.indexOf({x, y});
-            ASSERT_EQ(fitted.owners[i], rays.has({x, y}) ? owners[i] : kNoPiece);
+            ASSERT_EQ((*fitted.owners)[i], rays.has({x, y}) ? owners[i] : kNoPiece);
             if (!rays.has({x, y})) continue;
             ASSERT_NE(owners[i], kNoPiece);
             const glm::dvec3 h =

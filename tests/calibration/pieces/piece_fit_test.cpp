@@ -26,7 +26,7 @@ double largestErrorPx(const Wall& wall, const FittedPieces& fitted) {
     double largest = 0;
     for (int y = 0; y < display.sizePx.y; ++y) {
         for (int x = 0; x < display.sizePx.x; ++x) {
-            const int32_t owner = fitted.owners[static_cast<size_t>(y * display.sizePx.x + x)];
+            const int32_t owner = (*fitted.owners)[static_cast<size_t>(y * display.sizePx.x + x)];
             if (owner == kNoPiece) return INFINITY;
             const Piece& piece = fitted.mesh.pieces[static_cast<size_t>(owner)];
             const auto corner = [&](size_t i) { return fitted.mesh.vertices[piece.vertices[i]]; };
