@@ -1,0 +1,149 @@
+// How many pieces each ingredient of the method saves: for every wall and tolerance the fewest pieces with
+// which each set of ingredients keeps every pixel within the tolerance, as CSV. See docs/ingredients.md.
+
+#include "bench/ingredients/measured_wall.h"
+#include "bench/ingredients/uniform_grid.h"
+#include "calibration/errors.h"
+#include "calibration/pieces/cell_fit.h"
+#include "calibration/pieces/piece_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <optional>
+
+namespace curvewall {
+namespace {
+
+constexpr std::array<double, 8> kTolerancesPx{2, 1, 0.5, 0.25, 0.1, 0.05, 0.025, 0.01};
+
+// Fits above this take minutes.
+constexpr size_t kMostBalanced = 20'000, kMostAdaptive = 30'000;
+
+struct Row {
+    glm::ivec2 cells{0};  // none where the mesh is not a grid
+    Measured measured;
+};
+
+using MakeGrid = std::function<PieceMesh(glm::ivec2 cells, double tolerancePx)>;
+using Rows = std::array<std::optional<Row>, kTolerancesPx.size()>;
+
+// Grids of one shape, from coarse to fine.
+class GridSearch {
+public:
+    GridSearch(const MeasuredWall& wall, double rowsPerColumn, const MakeGrid& make, double stepShare)
+        : wall_(wall), rowsPerColumn_(rowsPerColumn), make_(make), stepShare_(stepShare) {}
+
+    // The first grid that meets the tolerance and has `mostPieces` at most. Leaps are shorter than an error
+    // that falls with the square of the number of columns allows, so the last steps are small ones.
+    std::optional<Row> first(double tolerancePx, size_t mostPieces) {
+        for (;;) {
+            const glm::ivec2 cells(columns_, std::max(1.0, std::round(columns_ * rowsPerColumn_)));
+            if (2.0 * cells.x * cells.y > 2.0 * static_cast<double>(mostPieces)) return std::nullopt;
+            const Row row{cells, measure(wall_.rays, make_(cells, tolerancePx))};
+            if (row.measured.pieces > mostPieces) return std::nullopt;
+            if (row.measured.maxPx <= tolerancePx) return row;
+            constexpr double kShorter = 0.8, kLongestLeap = 2;
+            const double leap =
+                std::min(kShorter * std::sqrt(row.measured.maxPx / tolerancePx), kLongestLeap);
+            const int step = std::max(1, static_cast<int>(stepShare_ * columns_));
+            columns_ = std::max(columns_ + step, static_cast<int>(leap * columns_));
+        }
+    }
+
+private:
+    const MeasuredWall& wall_;
+    double rowsPerColumn_;
+    const MakeGrid& make_;
+    double stepShare_;
+    int columns_ = 1;
+};
+
+// The best shape at each tolerance.
+Rows fewestOfGrids(const MeasuredWall& wall, const MakeGrid& make, size_t mostPieces, double stepShare) {
+    Rows rows;
+    std::vector<GridSearch> shapes;
+    for (double shape : wall.rowsPerColumn) shapes.emplace_back(wall, shape, make, stepShare);
+    for (size_t i = 0; i < rows.size(); ++i) {
+        for (GridSearch& shape : shapes) {
+            const size_t most = rows[i] ? rows[i]->measured.pieces - 1 : mostPieces;
+            if (const auto row = shape.first(kTolerancesPx[i], most)) rows[i] = row;
+        }
+    }
+    return rows;
+}
+
+size_t triangleCount(const PieceMesh& mesh) {
+    size_t count = 0;
+    for (const Piece& piece : mesh.pieces) count += piece.vertexCount - 2;
+    return count;
+}
+
+// Stops before a fit that would have more pieces than are worth the time, if pieces grow at least with the
+// root of the tolerance.
+Rows fewestOfFits(const std::function<Measured(double tolerancePx)>& fit) {
+    Rows rows;
+    for (size_t i = 0; i < rows.size(); ++i) {
+        if (i > 0) {
+            if (!rows[i - 1]) break;
+            const double growth = std::sqrt(kTolerancesPx[i - 1] / kTolerancesPx[i]);
+            if (static_cast<double>(rows[i - 1]->measured.pieces) * growth > kMostAdaptive) break;
+        }
+        rows[i] = Row{{}, fit(kTolerancesPx[i])};
+    }
+    return rows;
+}
+
+Rows adaptiveTriangles(const MeasuredWall& wall) {
+    return fewestOfFits([&](double tolerancePx) {
+        const PieceMesh mesh = fitCells(wall.rays, tolerancePx);
+        return Measured{measure(wall.rays, mesh).maxPx, triangleCount(mesh)};
+    });
+}
+
+Rows fittedPieces(const MeasuredWall& wall) {
+    return fewestOfFits([&](double tolerancePx) {
+        const FittedPieces fitted = fitPieces(*wall.projection, wall.rays.sizePx(), tolerancePx);
+        return Measured{fitted.certificate.maxPx, fitted.mesh.pieces.size()};
+    });
+}
+
+void print(const MeasuredWall& wall, const char* ingredients, const Rows& rows) {
+    for (size_t i = 0; i < rows.size(); ++i) {
+        std::printf("%s,%s,%g,", wall.name.c_str(), ingredients, kTolerancesPx[i]);
+        if (!rows[i])
+            std::printf("-,-,-,-\n");
+        else if (rows[i]->cells.x == 0)
+            std::printf("-,-,%zu,%.4f\n", rows[i]->measured.pieces, rows[i]->measured.maxPx);
+        else
+            std::printf("%d,%d,%zu,%.4f\n", rows[i]->cells.x, rows[i]->cells.y, rows[i]->measured.pieces,
+                        rows[i]->measured.maxPx);
+    }
+    std::fflush(stdout);
+}
+
+void compareOn(const MeasuredWall& wall) {
+    constexpr double kMargin = 0.98;            // for the pixels between the samples of the fit
+    constexpr double kBalancedStep = 1.0 / 32;  // of the columns
+    const MakeGrid paper = [&](glm::ivec2 cells, double) { return paperGrid(wall, cells); };
+    const MakeGrid onSurface = [&](glm::ivec2 cells, double) { return gridOnSurface(wall, cells); };
+    const MakeGrid balanced = [&](glm::ivec2 cells, double tolerancePx) {
+        return balancedGrid(wall, cells, kMargin * tolerancePx);
+    };
+    print(wall, "grid", fewestOfGrids(wall, paper, kMostPieces, 0));
+    print(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces, 0));
+    print(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced, kBalancedStep));
+    print(wall, "adaptive", adaptiveTriangles(wall));
+    print(wall, "merged", fittedPieces(wall));
+}
+
+}  // namespace
+}  // namespace curvewall
+
+int main(int argc, char** argv) {
+    std::printf("wall,ingredients,tolerance_px,columns,rows,pieces,max_error_px\n");
+    for (const curvewall::MeasuredWall& wall : curvewall::measuredWalls())
+        if (argc < 2 || wall.name == argv[1]) curvewall::compareOn(wall);
+}
