@@ -28,7 +28,7 @@ struct Edge {
 };
 
 struct Polygon {
-    std::array<Edge, 4> edges;
+    std::array<Edge, kMostPieceEdges> edges;
     size_t edgeCount = 0;
     GridPoint least{INT64_MAX, INT64_MAX}, most{INT64_MIN, INT64_MIN};
 

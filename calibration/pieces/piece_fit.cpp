@@ -4,6 +4,7 @@
 #include "calibration/pieces/cell_fit.h"
 #include "calibration/pieces/ownership.h"
 #include "calibration/pieces/quad_grid_fit.h"
+#include "calibration/pieces/radial_fit.h"
 #include "calibration/stopwatch.h"
 
 #include <algorithm>
@@ -44,6 +45,27 @@ bool fitQuadGrid(const Projection& projection, const RayImage& rays, double tole
     return found && fitted.certificate.maxPx <= tolerancePx;
 }
 
+// False where the display is not round, or the certificate finds what the fit does not see.
+bool fitRound(const Projection& projection, const RayImage& rays, double tolerancePx, const std::stop_token& stop,
+              FittedPieces& fitted) {
+    constexpr int kMostRounds = 4;
+    double goalPx = tolerancePx;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const Stopwatch fitting;
+        std::optional<PieceMesh> mesh = fitRadial(projection, rays.sizePx(), goalPx, stop);
+        fitted.fitMs += fitting.ms();
+        if (!mesh) return false;
+        fitted.mesh = std::move(*mesh);
+        const Stopwatch certifying;
+        certify(rays, fitted);
+        fitted.certifyMs += certifying.ms();
+        if (fitted.certificate.uncoveredPixels > 0) return false;
+        if (fitted.certificate.maxPx <= tolerancePx) return true;
+        goalPx *= 0.995 * tolerancePx / fitted.certificate.maxPx;
+    }
+    return false;
+}
+
 }  // namespace
 
 void refuseTolerance(double tolerancePx) {
@@ -72,6 +94,7 @@ FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double t
         throw UsageError("the display shows nothing: no pixel has a ray");
     fitted.fitMs = sampling.ms();
     if (unrolls(projection, rays) && fitQuadGrid(projection, rays, tolerancePx, stop, fitted)) return fitted;
+    if (fitRound(projection, rays, tolerancePx, stop, fitted)) return fitted;
     const Stopwatch fitting;
     fitted.mesh = fitCells(rays, tolerancePx, stop);
     fitted.fitMs += fitting.ms();
