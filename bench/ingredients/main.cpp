@@ -33,22 +33,24 @@ using Rows = std::array<std::optional<Row>, kTolerancesPx.size()>;
 // Grids of one shape, from coarse to fine.
 class GridSearch {
 public:
-    GridSearch(const MeasuredWall& wall, double rowsPerColumn, const MakeGrid& make, double stepShare)
-        : wall_(wall), rowsPerColumn_(rowsPerColumn), make_(make), stepShare_(stepShare) {}
+    GridSearch(const MeasuredWall& wall, double rowsPerColumn, const MakeGrid& make)
+        : wall_(wall), rowsPerColumn_(rowsPerColumn), make_(make) {}
 
     // The first grid that meets the tolerance and has `mostPieces` at most. Leaps are shorter than an error
-    // that falls with the square of the number of columns allows, so the last steps are small ones.
+    // that falls with the square of the number of columns allows, so the last steps are one or two in a
+    // hundred columns.
     std::optional<Row> first(double tolerancePx, size_t mostPieces) {
         for (;;) {
             const glm::ivec2 cells(columns_, std::max(1.0, std::round(columns_ * rowsPerColumn_)));
-            if (2.0 * cells.x * cells.y > 2.0 * static_cast<double>(mostPieces)) return std::nullopt;
+            constexpr double kLeastPerCell = 1.5;  // the other quarter lies in holes at most
+            if (kLeastPerCell * cells.x * cells.y > static_cast<double>(mostPieces)) return std::nullopt;
             const Row row{cells, measure(wall_.rays, make_(cells, tolerancePx))};
             if (row.measured.pieces > mostPieces) return std::nullopt;
             if (row.measured.maxPx <= tolerancePx) return row;
-            constexpr double kShorter = 0.8, kLongestLeap = 2;
+            constexpr double kShorter = 0.9, kLongestLeap = 2;
             const double leap =
                 std::min(kShorter * std::sqrt(row.measured.maxPx / tolerancePx), kLongestLeap);
-            const int step = std::max(1, static_cast<int>(stepShare_ * columns_));
+            const int step = std::max(1, columns_ / 50);
             columns_ = std::max(columns_ + step, static_cast<int>(leap * columns_));
         }
     }
@@ -57,15 +59,14 @@ private:
     const MeasuredWall& wall_;
     double rowsPerColumn_;
     const MakeGrid& make_;
-    double stepShare_;
     int columns_ = 1;
 };
 
 // The best shape at each tolerance.
-Rows fewestOfGrids(const MeasuredWall& wall, const MakeGrid& make, size_t mostPieces, double stepShare) {
+Rows fewestOfGrids(const MeasuredWall& wall, const MakeGrid& make, size_t mostPieces) {
     Rows rows;
     std::vector<GridSearch> shapes;
-    for (double shape : wall.rowsPerColumn) shapes.emplace_back(wall, shape, make, stepShare);
+    for (double shape : wall.rowsPerColumn) shapes.emplace_back(wall, shape, make);
     for (size_t i = 0; i < rows.size(); ++i) {
         for (GridSearch& shape : shapes) {
             const size_t most = rows[i] ? rows[i]->measured.pieces - 1 : mostPieces;
@@ -125,16 +126,15 @@ void print(const MeasuredWall& wall, const char* ingredients, const Rows& rows) 
 }
 
 void compareOn(const MeasuredWall& wall) {
-    constexpr double kMargin = 0.98;            // for the pixels between the samples of the fit
-    constexpr double kBalancedStep = 1.0 / 32;  // of the columns
+    constexpr double kMargin = 0.98;  // for the pixels between the samples of the fit
     const MakeGrid paper = [&](glm::ivec2 cells, double) { return paperGrid(wall, cells); };
     const MakeGrid onSurface = [&](glm::ivec2 cells, double) { return gridOnSurface(wall, cells); };
     const MakeGrid balanced = [&](glm::ivec2 cells, double tolerancePx) {
         return balancedGrid(wall, cells, kMargin * tolerancePx);
     };
-    print(wall, "grid", fewestOfGrids(wall, paper, kMostPieces, 0));
-    print(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces, 0));
-    print(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced, kBalancedStep));
+    print(wall, "grid", fewestOfGrids(wall, paper, kMostPieces));
+    print(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces));
+    print(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced));
     print(wall, "adaptive", adaptiveTriangles(wall));
     print(wall, "merged", fittedPieces(wall));
 }
