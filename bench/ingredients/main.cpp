@@ -3,16 +3,19 @@
 
 #include "bench/ingredients/measured_wall.h"
 #include "bench/ingredients/uniform_grid.h"
-#include "calibration/errors.h"
+#include "calibration/parallel.h"
 #include "calibration/pieces/cell_fit.h"
 #include "calibration/pieces/piece_fit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
+#include <iostream>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -111,39 +114,50 @@ Rows fittedPieces(const MeasuredWall& wall) {
     });
 }
 
-void print(const MeasuredWall& wall, const char* ingredients, const Rows& rows) {
+std::string asCsv(const MeasuredWall& wall, const char* ingredients, const Rows& rows) {
+    std::ostringstream csv;
     for (size_t i = 0; i < rows.size(); ++i) {
-        std::printf("%s,%s,%g,", wall.name.c_str(), ingredients, kTolerancesPx[i]);
-        if (!rows[i])
-            std::printf("-,-,-,-\n");
-        else if (rows[i]->cells.x == 0)
-            std::printf("-,-,%zu,%.4f\n", rows[i]->measured.pieces, rows[i]->measured.maxPx);
+        csv << wall.name << ',' << ingredients << ',' << kTolerancesPx[i] << ',';
+        if (!rows[i]) {
+            csv << "-,-,-,-\n";
+            continue;
+        }
+        if (const glm::ivec2 cells = rows[i]->cells; cells.x > 0)
+            csv << cells.x << ',' << cells.y << ',';
         else
-            std::printf("%d,%d,%zu,%.4f\n", rows[i]->cells.x, rows[i]->cells.y, rows[i]->measured.pieces,
-                        rows[i]->measured.maxPx);
+            csv << "-,-,";
+        csv << rows[i]->measured.pieces << ',' << rows[i]->measured.maxPx << '\n';
     }
-    std::fflush(stdout);
+    return csv.str();
 }
 
-void compareOn(const MeasuredWall& wall) {
+std::string comparisonOn(const MeasuredWall& wall) {
     constexpr double kMargin = 0.98;  // for the pixels between the samples of the fit
     const MakeGrid paper = [&](glm::ivec2 cells, double) { return paperGrid(wall, cells); };
     const MakeGrid onSurface = [&](glm::ivec2 cells, double) { return gridOnSurface(wall, cells); };
     const MakeGrid balanced = [&](glm::ivec2 cells, double tolerancePx) {
         return balancedGrid(wall, cells, kMargin * tolerancePx);
     };
-    print(wall, "grid", fewestOfGrids(wall, paper, kMostPieces));
-    print(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces));
-    print(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced));
-    print(wall, "adaptive", adaptiveTriangles(wall));
-    print(wall, "merged", fittedPieces(wall));
+    return asCsv(wall, "grid", fewestOfGrids(wall, paper, kMostPieces)) +
+           asCsv(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces)) +
+           asCsv(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced)) +
+           asCsv(wall, "adaptive", adaptiveTriangles(wall)) + asCsv(wall, "merged", fittedPieces(wall));
+}
+
+// Most of the time goes to solvers, which have one thread each.
+std::vector<std::string> comparisons(const std::vector<MeasuredWall>& walls) {
+    std::vector<std::string> csv(walls.size());
+    parallelRanges(static_cast<int>(walls.size()), [&](int begin, int end) {
+        for (auto i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i)
+            csv[i] = comparisonOn(walls[i]);
+    });
+    return csv;
 }
 
 }  // namespace
 }  // namespace curvewall
 
-int main(int argc, char** argv) {
-    std::printf("wall,ingredients,tolerance_px,columns,rows,pieces,max_error_px\n");
-    for (const curvewall::MeasuredWall& wall : curvewall::measuredWalls())
-        if (argc < 2 || wall.name == argv[1]) curvewall::compareOn(wall);
+int main() {
+    std::cout << "wall,ingredients,tolerance_px,columns,rows,pieces,max_error_px\n";
+    for (const std::string& csv : curvewall::comparisons(curvewall::measuredWalls())) std::cout << csv;
 }

@@ -9,20 +9,29 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 namespace curvewall {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-MeasuredWall shippedDisplay(const std::string& name, const std::string& stem, std::string_view displayName,
-                            Surface surface, std::vector<double> rowsPerColumn) {
-    const Wall wall = test::shippedWall(stem);
-    const Display& display = findDisplay(wall, displayName);
-    return {
-        name,    display.projection,      display.projection, RayImage(*display.projection, display.sizePx),
-        surface, std::move(rowsPerColumn)};
+MeasuredWall measuredWall(const std::string& name, glm::ivec2 sizePx, const ProjectionPtr& projection,
+                          Surface surface, std::vector<double> rowsPerColumn) {
+    return {name, projection, projection, RayImage(*projection, sizePx), surface, std::move(rowsPerColumn)};
+}
+
+MeasuredWall shippedDisplay(const std::string& name, const std::string& stem, Surface surface,
+                            std::vector<double> rowsPerColumn) {
+    const Display display = test::shippedWall(stem).displays.front();
+    return measuredWall(name, display.sizePx, display.projection, surface, std::move(rowsPerColumn));
+}
+
+// The most slanted projector of configs/five-projector-dome.json, from a seat away from the dome's centre.
+MeasuredWall projectorOnDome(std::vector<double> rowsPerColumn) {
+    const Wall wall = seenFrom(test::shippedWall("five-projector-dome"), {1.2, -0.4, 0.8});
+    const Display& display = findDisplay(wall, "zenith");
+    return measuredWall("projector on a dome", display.sizePx, display.projection, Surface::measured,
+                        std::move(rowsPerColumn));
 }
 
 // The lens of configs/dome-master.json, up to an angle off its axis.
@@ -37,15 +46,14 @@ ProjectionPtr domeMasterTo(double edgeRad) {
 }  // namespace
 
 std::vector<MeasuredWall> measuredWalls() {
-    const std::vector<double> square{1}, anyShape{0, 0.125, 0.25, 0.5, 1, 2, 4};
+    const std::vector<double> square{1}, anyShape{0, 0.125, 0.25, 0.5, 1};
     std::vector<MeasuredWall> walls;
-    walls.push_back(shippedDisplay("full cylinder", "full-cylinder", "", Surface::measured, anyShape));
-    walls.push_back(shippedDisplay("dome master", "dome-master", "", Surface::infinity, square));
+    walls.push_back(shippedDisplay("full cylinder", "full-cylinder", Surface::measured, anyShape));
+    walls.push_back(shippedDisplay("dome master", "dome-master", Surface::infinity, square));
     walls.back().continued = domeMasterTo(kPi);
-    walls.push_back(shippedDisplay("view deformation", "view-deformation", "", Surface::image, square));
-    walls.push_back(shippedDisplay("measured screen", "surface-map", "", Surface::measured, anyShape));
-    walls.push_back(
-        shippedDisplay("projector on a dome", "five-projector-dome", "zenith", Surface::measured, anyShape));
+    walls.push_back(shippedDisplay("view deformation", "view-deformation", Surface::image, square));
+    walls.push_back(shippedDisplay("measured screen", "surface-map", Surface::measured, anyShape));
+    walls.push_back(projectorOnDome(anyShape));
     return walls;
 }
 
