@@ -55,7 +55,7 @@ glm::dvec3 onFlatScreen(glm::dvec2 at) { return {2 * at.x - 1, 1 - 2 * at.y, -1}
 // Across the middle of the display a step of one pixel along x is `scale` px: more than 0 is a map that
 // nearly folds, less one that does.
 test::NumbersAt foldingOffsets(glm::ivec2 sizePx, double scale) {
-    return [sizePx, swing = (1 - scale) * sizePx.x / (2 * kPi)](glm::dvec2 at) {
+    return [swing = (1 - scale) * sizePx.x / (2 * kPi)](glm::dvec2 at) {
         return glm::dvec3(swing * std::sin(2 * kPi * at.x + at.y), 8 * std::sin(3 * at.y + at.x), 0);
     };
 }
