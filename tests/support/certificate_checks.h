@@ -26,7 +26,7 @@ inline std::optional<double> expectCertifiedAt(const Projection& projection, con
     const size_t i = static_cast<size_t>(px.y) * static_cast<size_t>(mesh.sizePx.x) + size_t(px.x);
     const glm::dvec2 centre = glm::dvec2(px) + 0.5;
     const auto ray = projection.unproject(centre);
-    const int32_t owner = fitted.owners[i];
+    const int32_t owner = (*fitted.owners)[i];
     EXPECT_EQ(owner != kNoPiece, ray.has_value()) << px.x << ", " << px.y;
     if (!ray || owner == kNoPiece) return std::nullopt;
 

@@ -34,7 +34,7 @@ double shownFromPx(const Display& display, const FittedPieces& fitted, glm::ivec
     const size_t i =
         static_cast<size_t>(px.y) * static_cast<size_t>(display.sizePx.x) + static_cast<size_t>(px.x);
     const glm::dvec2 centre = glm::dvec2(px) + 0.5;
-    const Piece& piece = fitted.mesh.pieces[static_cast<size_t>(fitted.owners[i])];
+    const Piece& piece = fitted.mesh.pieces[static_cast<size_t>((*fitted.owners)[i])];
     double nearest = std::numeric_limits<double>::infinity();
     for (const glm::dvec2 at : display.projection->project(test::shownRay(fitted.mesh, piece, centre))) {
         const glm::dvec2 off = glm::abs(at - centre);
