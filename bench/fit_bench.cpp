@@ -1,20 +1,49 @@
 // What it takes to fit and to certify the pieces of a wall. The column CPU is what one core takes for it.
 
 #include "calibration/pieces/ownership.h"
-#include "calibration/pieces/piece_fit.h"
+#include "calibration/pieces/piece_refit.h"
 #include "calibration/pieces/piece_tree.h"
 #include "calibration/projections/lens_projection.h"
 #include "calibration/projections/radial_lens.h"
+#include "tests/support/shipped_walls.h"
 #include "tests/support/test_walls.h"
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace curvewall {
 namespace {
 
 constexpr glm::ivec2 kSizePx(1600, 1200);
+
+// A display with more pixels across the same picture.
+class Enlarged : public Projection {
+public:
+    Enlarged(ProjectionPtr shown, double times) : shown_(std::move(shown)), times_(times) {}
+
+    std::optional<glm::dvec3> unproject(glm::dvec2 px) const override {
+        return shown_->unproject(px / times_);
+    }
+    std::vector<glm::dvec2> project(glm::dvec3 ray) const override {
+        std::vector<glm::dvec2> positions = shown_->project(ray);
+        for (glm::dvec2& px : positions) px *= times_;
+        return positions;
+    }
+    ProjectionPtr seenFrom(glm::dvec3 eyeM) const override {
+        return std::make_shared<Enlarged>(shown_->seenFrom(eyeM), times_);
+    }
+
+private:
+    ProjectionPtr shown_;
+    double times_;
+};
 
 double toleranceOf(const benchmark::State& state) { return static_cast<double>(state.range(0)) / 1000; }
 
@@ -99,6 +128,47 @@ void findOwners(benchmark::State& state) {
     reportPieces(state, fitted);
 }
 BENCHMARK(findOwners)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+
+// The dome of five projectors, each with 1920 x 1200 pixels.
+Wall largeDome() {
+    constexpr glm::ivec2 kShippedPx(1280, 800), kLargePx(1920, 1200);
+    Wall wall = test::shippedWall("five-projector-dome");
+    for (Display& display : wall.displays) {
+        if (display.sizePx != kShippedPx) throw std::logic_error("the dome's displays have another size");
+        display.sizePx = kLargePx;
+        display.projection = std::make_shared<Enlarged>(display.projection, 1.5);
+    }
+    return wall;
+}
+
+// Every display of a wall after the eye has moved by a centimetre; every 8th row and column, or all of them.
+void refit(benchmark::State& state, const Wall& wall) {
+    const Wall moved = seenFrom(wall, wall.eyeM + glm::dvec3(0.006, 0.0, 0.008));
+    const int every = static_cast<int>(state.range(0));
+    std::vector<FittedPieces> before, after;
+    for (const Display& display : wall.displays) before.push_back(fitPieces(display, 0.25));
+    if (every == 1)
+        for (size_t i = 0; i < before.size(); ++i)
+            before[i] = refitPieces(before[i], moved.displays[i], 0.25, kSparseRows);
+    for (auto _ : state) {
+        after.clear();
+        for (size_t i = 0; i < before.size(); ++i)
+            after.push_back(refitPieces(before[i], moved.displays[i], 0.25, every));
+    }
+    double pieces = 0, maxPx = 0;
+    for (const FittedPieces& fitted : after) {
+        pieces += static_cast<double>(fitted.mesh.pieces.size());
+        maxPx = std::max(maxPx, fitted.certificate.maxPx);
+    }
+    state.counters["pieces"] = pieces;
+    state.counters["max_error_px"] = maxPx;
+}
+
+void refitFullCylinder(benchmark::State& state) { refit(state, test::fullCylinderWall(kSizePx)); }
+BENCHMARK(refitFullCylinder)->ArgName("every")->Arg(kSparseRows)->Arg(1)->Unit(benchmark::kMillisecond);
+
+void refitDome(benchmark::State& state) { refit(state, largeDome()); }
+BENCHMARK(refitDome)->ArgName("every")->Arg(kSparseRows)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void buildTree(benchmark::State& state) {
     const Wall wall = test::fullCylinderWall(kSizePx);

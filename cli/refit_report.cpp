@@ -24,6 +24,7 @@ FollowedPieces followPieces(const Display& own, const Display& now, double toler
     const Stopwatch completing;
     followed.pieces = refitPieces(atOnce, now, tolerancePx, 1);
     followed.fullMs = completing.ms();
+    followed.pieces.fitMs += atOnce.fitMs;
     return followed;
 }
 
@@ -45,7 +46,7 @@ void printReport(const FollowedPieces& followed) {
     const Certificate& c = followed.atOnce;
     fmt::print("  {} pieces fitted at the wall's own eye in {:.0f} ms\n", followed.piecesBefore,
                followed.fitMs);
-    fmt::print("  refitted to {} pieces in {:.1f} ms; over every {}. row and column {:.4f} px at most\n",
+    fmt::print("  refitted to {} pieces in {:.1f} ms; over every {}th row and column {:.4f} px at most\n",
                followed.piecesAtOnce, followed.refitMs, c.every, c.maxPx);
     fmt::print("  certified at every pixel {:.0f} ms later\n", followed.fullMs);
 }

@@ -17,12 +17,11 @@ GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, Outpu
 PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
                                      SceneLook look, const GpuOwners* owners)
     : PiecewiseRenderer(
-          scene, pieces, coverage,
           std::make_shared<const ScenePrograms>(*scene.scene, look, pathThrough(pieces, owners, look.output)),
-          owners) {}
+          scene, pieces, coverage, owners) {}
 
-PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
-                                     std::shared_ptr<const ScenePrograms> programs, const GpuOwners* owners)
+PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> programs, const GpuScene& scene,
+                                     const GpuPieces& pieces, Coverage* coverage, const GpuOwners* owners)
     : scene_(scene),
       pieces_(pieces),
       coverage_(pieces.pieceCount > 1 ? coverage : nullptr),

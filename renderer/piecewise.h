@@ -25,8 +25,8 @@ public:
                       const GpuOwners* owners);
 
     // The same with programs that others use too; they must be for pathThrough().
-    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
-                      std::shared_ptr<const ScenePrograms> programs, const GpuOwners* owners);
+    PiecewiseRenderer(std::shared_ptr<const ScenePrograms> programs, const GpuScene& scene,
+                      const GpuPieces& pieces, Coverage* coverage, const GpuOwners* owners);
 
     // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
     void record(const SceneView& view, const FramePass& pass = {});

@@ -184,10 +184,10 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const auto prepared = preparedPieces(request, display);
     const auto renderer = scene->draws.get({prepared, request.style, request.output}, [&] {
         const SceneLook look{request.style, request.output};
+        const GpuOwners* gpuOwners = prepared->owners.get();
         return std::make_shared<PiecewiseRenderer>(
-            scene->gpu, prepared->gpu, &scene->coverage,
-            programsFor(*scene, look, pathThrough(prepared->gpu, prepared->owners.get(), look.output)),
-            prepared->owners.get());
+            programsFor(*scene, look, pathThrough(prepared->gpu, gpuOwners, look.output)), scene->gpu,
+            prepared->gpu, &scene->coverage, gpuOwners);
     });
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;

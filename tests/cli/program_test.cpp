@@ -111,6 +111,21 @@ TEST_F(Program, InspectReportsTheCertificateAsJson) {
     EXPECT_NEAR(ahead[2], -1, 1e-3);
 }
 
+TEST_F(Program, InspectLetsThePiecesFollowTheEye) {
+    const Outcome outcome = run("", "inspect " + wall() + " --tolerance 0.5 --eye 0.01,0,0 --refit --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.output;
+    for (const json& display : json::parse(outcome.output)["displays"]) {
+        const json& refit = display["refit"];
+        EXPECT_EQ(refit["certificate"]["every"], 8);
+        EXPECT_LE(refit["certificate"]["max"], 0.5);
+        EXPECT_LE(display["geometric_error_px"]["max"], 0.5);
+        EXPECT_GE(display["geometric_error_px"]["max"], refit["certificate"]["max"]);
+        EXPECT_EQ(refit["own_eye"]["pieces"], display["pieces"]);
+    }
+    const Outcome text = run("", "inspect " + wall() + " --eye 0.01,0,0 --refit");
+    EXPECT_THAT(text.output, HasSubstr("every 8th row and column"));
+}
+
 TEST_F(Program, MasksOfAWallAreWrittenAndUsedAsInspectSays) {
     // Two flat screens that turn away from each other and share a third of what they show.
     const auto wallText = [](const json& left, const json& right) {
@@ -208,6 +223,7 @@ TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
              {render + "--eye 0,0,2", 2, "display \"left\": the eye is not inside the cylinder"},
              {render + "--eye 0,0,-1", 2, "display \"right\": the eye lies in the plane"},
              {"inspect " + wall() + " --eye 0,0,2", 2, "the eye is not inside the cylinder"},
+             {"inspect " + wall() + " --refit", 2, "--refit needs --eye"},
              {"inspect " + wall() + " --display left --blend " + file("b"), 2, "leave out --display"},
              {"inspect " + wall() + " --blend " + wall(), 1, "cannot be made a folder"},
              {render + "--output-kind depth --out a.png", 2, ".exr"},

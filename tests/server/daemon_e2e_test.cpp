@@ -211,12 +211,28 @@ TEST_F(DaemonE2eTest, ThePicturesAreThoseOfARenderThatFits) {
     const Library library = openLibrary(folder_.path(), folder_.path("scenes"), 1000);
     const RenderFunction render = makeFrameMaker(1);
     HttpClient client(port_);
-    for (const char* eye : {"[0, 0, 0]", "[0.5, 0.2, -0.4]", "[0, 0, 0]"}) {
-        const std::string body = std::string(R"({"wall": "small", "scene": "room", "eye": )") + eye + "}";
+    // Each at a tolerance of its own: at the same one the second eye's pieces would be refitted.
+    for (const auto& [eye, tolerancePx] : {std::pair{json{0, 0, 0}, 0.25}, {json{0.5, 0.2, -0.4}, 0.3}}) {
+        const json request{{"wall", "small"}, {"scene", "room"}, {"eye", eye}, {"tolerance_px", tolerancePx}};
+        const std::string body = request.dump();
         const std::string expected = render(decodeRenderCall(body, library, 1 << 20)).bytes;
         for (int i = 0; i < 2; ++i)
             EXPECT_TRUE(client.render(body).body() == expected) << eye;  // without printing images
     }
+}
+
+TEST_F(DaemonE2eTest, AnEyeThatMovesGetsASparseCertificateAtOnceAndAFullOneLater) {
+    HttpClient client(port_);
+    const auto statsFrom = [&](double eyeXM) {
+        const json request{{"wall", "small"}, {"scene", "room"}, {"eye", {eyeXM, 0, 0}}};
+        return json::parse(header(client.render(request.dump()), "Curvewall-Stats"));
+    };
+    EXPECT_EQ(statsFrom(0)["certificate"]["every"], 1);
+    const json atOnce = statsFrom(0.001);
+    EXPECT_EQ(atOnce["certificate"]["every"], 8);
+    EXPECT_GT(atOnce["certificate"]["full_age_ms"], 0);
+    EXPECT_LE(atOnce["geometric_error_px"]["max"], 0.25);
+    while (statsFrom(0.001)["certificate"]["every"] != 1) std::this_thread::yield();
 }
 
 TEST_F(DaemonE2eTest, TheSignalEndsAFitAndOthersDoNotWaitForIt) {
