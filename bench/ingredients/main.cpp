@@ -5,6 +5,7 @@
 #include "bench/ingredients/uniform_grid.h"
 #include "calibration/parallel.h"
 #include "calibration/pieces/cell_fit.h"
+#include "calibration/pieces/lower_bound.h"
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/pieces/ray_image.h"
 
@@ -133,6 +134,14 @@ std::string asCsv(const MeasuredWall& wall, const char* ingredients, const Rows&
     return csv.str();
 }
 
+std::string boundAsCsv(const MeasuredWall& wall) {
+    std::ostringstream csv;
+    for (double tolerancePx : kTolerancesPx)
+        csv << wall.name << ",bound," << tolerancePx << ",-,-,"
+            << lowerBoundOfPieces(*wall.projection, wall.sizePx, tolerancePx) << ",-\n";
+    return csv.str();
+}
+
 std::string comparisonOn(const MeasuredWall& wall) {
     constexpr double kMargin = 0.98;  // for the pixels between the samples of the fit
     const MakeGrid paper = [&](glm::ivec2 cells, double) { return paperGrid(wall, cells); };
@@ -143,7 +152,8 @@ std::string comparisonOn(const MeasuredWall& wall) {
     return asCsv(wall, "grid", fewestOfGrids(wall, paper, kMostPieces)) +
            asCsv(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces)) +
            asCsv(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced)) +
-           asCsv(wall, "adaptive", adaptiveTriangles(wall)) + asCsv(wall, "merged", fittedPieces(wall));
+           asCsv(wall, "adaptive", adaptiveTriangles(wall)) + asCsv(wall, "merged", fittedPieces(wall)) +
+           boundAsCsv(wall);
 }
 
 // Most of the time goes to solvers, which have one thread each.
