@@ -5,7 +5,9 @@
 #include "bench/ingredients/uniform_grid.h"
 #include "calibration/parallel.h"
 #include "calibration/pieces/cell_fit.h"
+#include "calibration/pieces/lower_bound.h"
 #include "calibration/pieces/piece_fit.h"
+#include "calibration/pieces/ray_image.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +49,7 @@ public:
             const glm::ivec2 cells(columns_, std::max(1.0, std::round(columns_ * rowsPerColumn_)));
             constexpr double kLeastPerCell = 1.5;  // the other quarter lies in holes at most
             if (kLeastPerCell * cells.x * cells.y > static_cast<double>(mostPieces)) return std::nullopt;
-            const Row row{cells, measure(wall_.rays, make_(cells, tolerancePx))};
+            const Row row{cells, measure(*wall_.projection, make_(cells, tolerancePx), tolerancePx)};
             if (row.measured.pieces > mostPieces) return std::nullopt;
             if (row.measured.maxPx <= tolerancePx) return row;
             constexpr double kShorter = 0.9, kLongestLeap = 2;
@@ -101,15 +103,16 @@ Rows fewestOfFits(const std::function<Measured(double tolerancePx)>& fit) {
 }
 
 Rows adaptiveTriangles(const MeasuredWall& wall) {
+    const RayImage rays(*wall.projection, wall.sizePx);
     return fewestOfFits([&](double tolerancePx) {
-        const PieceMesh mesh = fitCells(wall.rays, tolerancePx);
-        return Measured{measure(wall.rays, mesh).maxPx, triangleCount(mesh)};
+        const PieceMesh mesh = fitCells(rays, tolerancePx).pieces.mesh;
+        return Measured{measure(*wall.projection, mesh, tolerancePx).maxPx, triangleCount(mesh)};
     });
 }
 
 Rows fittedPieces(const MeasuredWall& wall) {
     return fewestOfFits([&](double tolerancePx) {
-        const FittedPieces fitted = fitPieces(*wall.projection, wall.rays.sizePx(), tolerancePx);
+        const FittedPieces fitted = fitPieces(*wall.projection, wall.sizePx, tolerancePx);
         return Measured{fitted.certificate.maxPx, fitted.mesh.pieces.size()};
     });
 }
@@ -131,6 +134,14 @@ std::string asCsv(const MeasuredWall& wall, const char* ingredients, const Rows&
     return csv.str();
 }
 
+std::string boundAsCsv(const MeasuredWall& wall) {
+    std::ostringstream csv;
+    for (double tolerancePx : kTolerancesPx)
+        csv << wall.name << ",bound," << tolerancePx << ",-,-,"
+            << lowerBoundOfPieces(*wall.projection, wall.sizePx, tolerancePx) << ",-\n";
+    return csv.str();
+}
+
 std::string comparisonOn(const MeasuredWall& wall) {
     constexpr double kMargin = 0.98;  // for the pixels between the samples of the fit
     const MakeGrid paper = [&](glm::ivec2 cells, double) { return paperGrid(wall, cells); };
@@ -141,7 +152,8 @@ std::string comparisonOn(const MeasuredWall& wall) {
     return asCsv(wall, "grid", fewestOfGrids(wall, paper, kMostPieces)) +
            asCsv(wall, "surface", fewestOfGrids(wall, onSurface, kMostPieces)) +
            asCsv(wall, "balanced", fewestOfGrids(wall, balanced, kMostBalanced)) +
-           asCsv(wall, "adaptive", adaptiveTriangles(wall)) + asCsv(wall, "merged", fittedPieces(wall));
+           asCsv(wall, "adaptive", adaptiveTriangles(wall)) + asCsv(wall, "merged", fittedPieces(wall)) +
+           boundAsCsv(wall);
 }
 
 // Most of the time goes to solvers, which have one thread each.

@@ -7,7 +7,7 @@
 #include "tests/support/shipped_walls.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace curvewall {
@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 
 MeasuredWall measuredWall(const std::string& name, glm::ivec2 sizePx, const ProjectionPtr& projection,
                           Surface surface, std::vector<double> rowsPerColumn) {
-    return {name, projection, projection, RayImage(*projection, sizePx), surface, std::move(rowsPerColumn)};
+    return {name, projection, projection, sizePx, surface, std::move(rowsPerColumn)};
 }
 
 MeasuredWall shippedDisplay(const std::string& name, const std::string& stem, Surface surface,
@@ -57,18 +57,18 @@ std::vector<MeasuredWall> measuredWalls() {
     return walls;
 }
 
-Measured measure(const RayImage& rays, const PieceMesh& mesh) {
-    const std::vector<int32_t> owners = ownerImage(mesh);
-    const std::vector<float> errorsPx = pieceErrorsPx(rays, mesh, owners);
-    Measured measured;
+Measured measure(const Projection& projection, const PieceMesh& mesh, double tolerancePx) {
+    constexpr int kFewPixels = 8;  // rows and columns apart
+    const auto maxPx = [](const Certificate& certificate) {
+        return certificate.uncoveredPixels > 0 ? std::numeric_limits<double>::infinity() : certificate.maxPx;
+    };
+    const double fewMaxPx = maxPx(certifyPieces(projection, mesh, {}, kFewPixels).certificate);
+    if (fewMaxPx > tolerancePx) return {fewMaxPx, 0};
+    const CertifiedPixels pixels = certifyPieces(projection, mesh);
     std::vector<bool> isSeen(mesh.pieces.size());
-    for (size_t i = 0; i < owners.size(); ++i) {
-        if (std::isnan(errorsPx[i])) continue;
-        measured.maxPx = std::max(measured.maxPx, static_cast<double>(errorsPx[i]));
-        if (owners[i] != kNoPiece) isSeen[static_cast<size_t>(owners[i])] = true;
-    }
-    measured.pieces = static_cast<size_t>(std::ranges::count(isSeen, true));
-    return measured;
+    for (int32_t owner : pixels.owners)
+        if (owner != kNoPiece) isSeen[static_cast<size_t>(owner)] = true;
+    return {maxPx(pixels.certificate), static_cast<size_t>(std::ranges::count(isSeen, true))};
 }
 
 }  // namespace curvewall

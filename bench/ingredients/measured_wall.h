@@ -2,7 +2,6 @@
 // The walls on which the ingredients are compared.
 
 #include "calibration/pieces/piece_mesh.h"
-#include "calibration/pieces/ray_image.h"
 #include "calibration/projections/projection.h"
 
 #include <string>
@@ -21,7 +20,7 @@ struct MeasuredWall {
     std::string name;
     ProjectionPtr projection;
     ProjectionPtr continued;  // has a ray at vertices that lie in holes
-    RayImage rays;
+    glm::ivec2 sizePx;
     Surface surface;
     // Shapes of grids to choose from; 0 is one row.
     std::vector<double> rowsPerColumn;
@@ -30,10 +29,12 @@ struct MeasuredWall {
 std::vector<MeasuredWall> measuredWalls();
 
 struct Measured {
-    double maxPx = 0;   // over all pixels with a ray; infinite where one has no piece
-    size_t pieces = 0;  // that own such a pixel
+    double maxPx = 0;
+    size_t pieces = 0;
 };
 
-Measured measure(const RayImage& rays, const PieceMesh& mesh);
+// The certified maximum and the pieces that own a pixel with a ray. Where a look at some of the pixels shows
+// more than the tolerance, the maximum over those, and pieces are not counted.
+Measured measure(const Projection& projection, const PieceMesh& mesh, double tolerancePx);
 
 }  // namespace curvewall

@@ -18,7 +18,7 @@ glm::dvec3 rayAt(const MeasuredWall& wall, glm::dvec2 px) { return wall.continue
 
 // Vertices at even steps of the pixels.
 PieceGrid gridOverPixels(const MeasuredWall& wall, glm::ivec2 cells) {
-    PieceGrid grid{wall.rays.sizePx(), cells.x, cells.y, {}};
+    PieceGrid grid{wall.sizePx, cells.x, cells.y, {}};
     for (int row = 0; row <= cells.y; ++row) {
         for (int column = 0; column <= cells.x; ++column) {
             const glm::dvec2 share = glm::dvec2(column, row) / glm::dvec2(cells);
@@ -31,7 +31,7 @@ PieceGrid gridOverPixels(const MeasuredWall& wall, glm::ivec2 cells) {
 
 // Vertices at even steps of the base image, which the display's corners are corners of.
 PieceGrid gridOverImage(const MeasuredWall& wall, glm::ivec2 cells) {
-    PieceGrid grid{wall.rays.sizePx(), cells.x, cells.y, {}};
+    PieceGrid grid{wall.sizePx, cells.x, cells.y, {}};
     const glm::dvec2 size = grid.sizePx;
     const glm::dvec3 origin = rayAt(wall, {0, 0});
     const glm::dvec3 across = rayAt(wall, {size.x, 0}) - origin, down = rayAt(wall, {0, size.y}) - origin;
