@@ -1,9 +1,11 @@
 #include "calibration/pieces/cell_fit.h"
 
+#include "calibration/errors.h"
 #include "calibration/parallel.h"
 #include "calibration/pieces/cell_mesh.h"
 #include "calibration/pieces/ownership.h"
 #include "calibration/pieces/piece_fit.h"
+#include "calibration/stopwatch.h"
 
 #include <algorithm>
 #include <array>
@@ -26,8 +28,22 @@ constexpr double kFewFailures = 0.1;
 constexpr std::array<int, 3> kOtherFirstCounts{3, 5, 7};
 // Cells of fewer pixels than this on average are what noise is cut into.
 constexpr size_t kFewPixels = 16;
+// Pixels in each direction of a cell that are looked at before all of them are.
+constexpr int kCheckLattice = 20;
+// The fit asks for about as many rays as a display of this size has, and more than once for each of a smaller
+// one: then keeping them (100 MB at most) is faster.
+constexpr size_t kMostKeptRays = size_t{1} << 22;
 // Rounds in which cells that fail may hope that balancing mends them. Measured rarely to take more than four.
 constexpr int kHopefulRounds = 6;
+
+// Where flags are set.
+template <class Flags>
+std::vector<uint32_t> indicesOf(const Flags& flags) {
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < flags.size(); ++i)
+        if (flags[i]) indices.push_back(i);
+    return indices;
+}
 
 // A display cut into cells, each with its own best plane.
 struct CutDisplay {
@@ -38,58 +54,49 @@ struct CutDisplay {
 
 class CellFit {
 public:
-    CellFit(const RayImage& rays, double tolerancePx, const std::stop_token& stop)
-        : rays_(rays), tolerancePx_(tolerancePx), stop_(stop) {}
+    CellFit(const Projection& projection, glm::ivec2 sizePx, double tolerancePx, const std::stop_token& stop)
+        : rays_(projection, sizePx), tolerancePx_(tolerancePx), stop_(stop) {
+        if (pixelCount() <= kMostKeptRays) rays_.keep(stop);
+    }
 
-    PieceMesh fit() {
+    CertifiedCells fit() {
         double errorPx = kGainOfBalance * tolerancePx_;
         CutDisplay display = bestCuts(errorPx);
-        PieceMesh mesh;
-        std::vector<uint32_t> failing = tryFit(display, mesh);
+        if (display.pieceCount == 0) throw UsageError("the display shows nothing: no pixel has a ray");
+        CertifiedCells fitted;
+        std::vector<uint32_t> failing = tryFit(display, fitted);
         while (shouldAllBeSmaller(display, failing) && errorPx > tolerancePx_) {
             errorPx *= 0.9;
             display = bestCuts(errorPx);
-            failing = tryFit(display, mesh);
+            failing = tryFit(display, fitted);
         }
         for (int round = 0; !failing.empty(); ++round) {
             const bool isHopeful = round < kHopefulRounds && !areTiny(display);
             for (uint32_t cell : failing) refine(display, cell, isHopeful);
-            failing = tryFit(display, mesh);
+            failing = tryFit(display, fitted);
         }
-        return mesh;
+        return fitted;
     }
 
 private:
-    // A cell on its own, with the axis to cut it across when it is off by more than `errorPx`; -1 for none.
-    struct Decision {
-        CellFacets facets;
-        int axis = -1;
-    };
-    Decision decide(const Cell& cell, double errorPx) const {
-        throwIfStopped(stop_);
-        Decision decision{facetsOf(rays_, cell)};
-        if (!decision.facets.isEmpty && !(decision.facets.errorPx <= errorPx))
-            decision.axis = bestCut(rays_, cell);
-        return decision;
-    }
-
     // Cuts cells until the own best plane of each is off by `errorPx` at most. Ends early, and is of no use,
     // when that takes more than `mostPieces`.
     CutDisplay cutTo(double errorPx, glm::ivec2 firstCounts, size_t mostPieces) const {
         CutDisplay display{CellTree(rays_.sizePx(), firstCounts), {}, 0};
+        display.facets.resize(display.tree.cellCount());
+        forEachCell(display, 0,
+                    [&](uint32_t id) { display.facets[id] = facetsOf(rays_, display.tree.cell(id)); });
         for (uint32_t begin = 0; begin < display.tree.cellCount() && display.pieceCount <= mostPieces;) {
-            const uint32_t end = display.tree.cellCount();
-            std::vector<Decision> decisions(end - begin);
-            parallelRanges(static_cast<int>(decisions.size()), [&](int from, int to) {
-                for (int i = from; i < to; ++i)
-                    decisions[static_cast<size_t>(i)] =
-                        decide(display.tree.cell(begin + static_cast<uint32_t>(i)), errorPx);
+            std::vector<Cut> cuts(display.tree.cellCount() - begin);
+            forEachCell(display, begin, [&](uint32_t id) {
+                const CellFacets& facets = display.facets[id];
+                if (!facets.isEmpty && !(facets.errorPx <= errorPx))
+                    cuts[id - begin] = bestCut(rays_, display.tree.cell(id));
             });
-            for (const Decision& decision : decisions) {
-                display.facets.push_back(decision.facets);
-                if (decision.axis >= 0)
-                    display.tree.cut(begin, decision.axis);
-                else if (!decision.facets.isEmpty)
+            for (const Cut& cut : cuts) {
+                if (cut.axis >= 0)
+                    addCut(display, begin, cut);
+                else if (!display.facets[begin].isEmpty)
                     display.pieceCount += 2;
                 ++begin;
             }
@@ -97,8 +104,28 @@ private:
         return display;
     }
 
+    // In parallel, from cell `begin` on.
+    template <class Work>
+    void forEachCell(const CutDisplay& display, uint32_t begin, const Work& work) const {
+        parallelRanges(static_cast<int>(display.tree.cellCount() - begin), [&](int from, int to) {
+            for (int i = from; i < to; ++i) {
+                throwIfStopped(stop_);
+                work(begin + static_cast<uint32_t>(i));
+            }
+        });
+    }
+
+    static void addCut(CutDisplay& display, uint32_t id, const Cut& cut) {
+        display.tree.cut(id, cut.axis);
+        display.facets.insert(display.facets.end(), cut.halves.begin(), cut.halves.end());
+    }
+
+    size_t pixelCount() const {
+        return static_cast<size_t>(rays_.sizePx().x) * static_cast<size_t>(rays_.sizePx().y);
+    }
+
     bool areTiny(const CutDisplay& display) const {
-        return display.pieceCount / 2 * kFewPixels > rays_.all().size();
+        return display.pieceCount / 2 * kFewPixels > pixelCount();
     }
 
     // The first counts that lead to the fewest pieces, for columns and then for rows.
@@ -121,40 +148,86 @@ private:
     }
 
     // Balances the facets. The answer is the cells that do not meet the tolerance.
-    std::vector<uint32_t> tryFit(const CutDisplay& display, PieceMesh& mesh) {
+    std::vector<uint32_t> tryFit(const CutDisplay& display, CertifiedCells& fitted) {
         // Nothing goes on from one to the next that is worth the time.
         if (areTiny(display))
             std::ranges::copy(display.tree.wholeCells(), std::inserter(loose_, loose_.end()));
         const CellMesh cells =
             meshOfCells(display.tree, display.facets, rays_, loose_, kMostDisagreement * tolerancePx_);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
-        mesh = balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_, stop_).mesh;
-        std::vector<uint32_t> failing;
-        for (uint32_t piece : piecesThatFail(display, cells.cellOfPiece, mesh))
-            failing.push_back(cells.cellOfPiece[piece]);
-        failing.erase(std::unique(failing.begin(), failing.end()), failing.end());
+        fitted.mesh =
+            balanceFacets(cells.mesh, cells.motion, cells.samples, kMargin * tolerancePx_, stop_).mesh;
+        // Most that fail do so at the samples, most of the others on a lattice; to cut those first saves
+        // pieces. Only the certificate decides.
+        std::vector<uint32_t> failing = cellsThatFailAtSamples(display, cells, fitted.mesh);
+        if (failing.empty()) failing = cellsThatFailOnLattice(display, cells, fitted.mesh);
+        if (failing.empty()) failing = cellsThatFail(display, cells.cellOfPiece, fitted);
         return failing;
     }
 
-    std::vector<uint32_t> piecesThatFail(const CutDisplay& display, const std::vector<uint32_t>& cellOfPiece,
-                                         const PieceMesh& mesh) const {
-        const std::vector<int32_t> owners = ownerImage(mesh);
-        std::vector<std::atomic<bool>> fails(mesh.pieces.size());
-        parallelRanges(mesh.sizePx.y, [&](int begin, int end) {
+    std::vector<uint32_t> cellsThatFailAtSamples(const CutDisplay& display, const CellMesh& cells,
+                                                 const PieceMesh& mesh) const {
+        std::vector<bool> fails(display.tree.cellCount());
+        for (const FacetSample& sample : cells.samples) {
+            const uint32_t cell = cells.cellOfPiece[sample.piece];
+            fails[cell] = fails[cell] || !meetsTolerance(display, cell, {glm::ivec2(sample.px), sample.ray},
+                                                         mesh.pieces[sample.piece]);
+        }
+        return indicesOf(fails);
+    }
+
+    std::vector<uint32_t> cellsThatFailOnLattice(const CutDisplay& display, const CellMesh& cells,
+                                                 const PieceMesh& mesh) const {
+        std::vector<std::atomic<bool>> fails(display.tree.cellCount());
+        // The two pieces of a cell follow each other.
+        parallelRanges(static_cast<int>(mesh.pieces.size() / 2), [&](int begin, int end) {
+            throwIfStopped(stop_);
+            for (size_t first = 2 * static_cast<size_t>(begin); first < 2 * static_cast<size_t>(end);
+                 first += 2) {
+                const uint32_t id = cells.cellOfPiece[first];
+                const Cell& cell = display.tree.cell(id);
+                if (loose_.contains(id)) continue;  // on its own plane, which was looked at everywhere
+                const bool isFalling =
+                    mesh.vertices[mesh.pieces[first].vertices[2]].s == glm::dvec2(cell.toPx);
+                const std::vector<SeenPixel> pixels = latticePixels(rays_, cell, kCheckLattice);
+                fails[id] = !std::ranges::all_of(pixels, [&](const SeenPixel& pixel) {
+                    return meetsTolerance(display, id, pixel,
+                                          mesh.pieces[first + facetAt(cell, isFalling, pixel.px)]);
+                });
+            }
+        });
+        return indicesOf(fails);
+    }
+
+    bool meetsTolerance(const CutDisplay& display, uint32_t cell, const SeenPixel& pixel,
+                        const Piece& piece) const {
+        return facetErrorPx(rays_, pixel, piece.screenFromRay, display.facets[cell].isThin) <= tolerancePx_;
+    }
+
+    std::vector<uint32_t> cellsThatFail(const CutDisplay& display, const std::vector<uint32_t>& cellOfPiece,
+                                        CertifiedCells& fitted) const {
+        constexpr double kFloat = 1 - 1e-7;  // what rounding an error to a float may hide
+        const Stopwatch certifying;
+        fitted.pixels = certifyPieces(rays_, fitted.mesh, stop_);
+        fitted.certifyMs = certifying.ms();
+        std::vector<std::atomic<bool>> fails(display.tree.cellCount());
+        const glm::ivec2 sizePx = rays_.sizePx();
+        parallelRanges(sizePx.y, [&](int begin, int end) {
+            size_t i = static_cast<size_t>(begin) * static_cast<size_t>(sizePx.x);
             for (int y = begin; y < end; ++y) {
-                for (int x = 0; x < mesh.sizePx.x; ++x) {
-                    if (!rays_.has({x, y})) continue;
-                    const auto k = static_cast<size_t>(owners[rays_.indexOf({x, y})]);
-                    const bool isThin = display.facets[cellOfPiece[k]].isThin;
-                    if (!(facetErrorPx(rays_, {x, y}, mesh.pieces[k].screenFromRay, isThin) <= tolerancePx_))
-                        fails[k].store(true, std::memory_order_relaxed);
+                for (int x = 0; x < sizePx.x; ++x, ++i) {
+                    if (fitted.pixels.owners[i] == kNoPiece) continue;
+                    const auto piece = static_cast<size_t>(fitted.pixels.owners[i]);
+                    const uint32_t cell = cellOfPiece[piece];
+                    if (!(fitted.pixels.errorsPx[i] <= kFloat * tolerancePx_) ||
+                        (display.facets[cell].isThin &&
+                         !meetsTolerance(display, cell, {{x, y}, rays_.at({x, y})},
+                                         fitted.mesh.pieces[piece])))
+                        fails[cell].store(true, std::memory_order_relaxed);
                 }
             }
         });
-        std::vector<uint32_t> failing;
-        for (uint32_t k = 0; k < fails.size(); ++k)
-            if (fails[k]) failing.push_back(k);
-        return failing;
+        return indicesOf(fails);
     }
 
     bool isGoodAlone(const CutDisplay& display, uint32_t cell) const {
@@ -200,16 +273,14 @@ private:
 
     void cut(CutDisplay& display, uint32_t id) const {
         throwIfStopped(stop_);
-        const int axis = bestCut(rays_, display.tree.cell(id));
-        if (axis < 0) refuseTolerance(tolerancePx_);
-        display.tree.cut(id, axis);
-        for (uint32_t half : {display.tree.cellCount() - 2, display.tree.cellCount() - 1})
-            display.facets.push_back(facetsOf(rays_, display.tree.cell(half)));
+        const Cut best = bestCut(rays_, display.tree.cell(id));
+        if (best.axis < 0) refuseTolerance(tolerancePx_);
+        addCut(display, id, best);
         display.pieceCount += 2;
         if (display.pieceCount > kMostPieces) refuseTolerance(tolerancePx_);
     }
 
-    const RayImage& rays_;
+    PixelRays rays_;
     double tolerancePx_;
     const std::stop_token& stop_;
     std::unordered_set<uint32_t> loose_;
@@ -218,8 +289,9 @@ private:
 
 }  // namespace
 
-PieceMesh fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop) {
-    return CellFit(rays, tolerancePx, stop).fit();
+CertifiedCells fitCells(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+                        const std::stop_token& stop) {
+    return CellFit(projection, sizePx, tolerancePx, stop).fit();
 }
 
 }  // namespace curvewall

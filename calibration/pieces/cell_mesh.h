@@ -23,7 +23,7 @@ struct CellMesh {
 // their own planes, where nothing moves them. Where a vertex
 // lies within a neighbour's longer edge it hangs: both its point and its screen position are the same blend
 // of the edge's ends.
-CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,
+CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const PixelRays& rays,
                      const std::unordered_set<uint32_t>& loose, double mostDisagreementPx);
 
 }  // namespace curvewall

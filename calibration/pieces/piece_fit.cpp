@@ -74,14 +74,14 @@ FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double t
     const Stopwatch fitting;
     if (unrolls(projection, sizePx) && fitQuadGrid(projection, sizePx, tolerancePx, stop, fitted))
         return fitted;
-    const RayImage rays(projection, sizePx, stop);
-    if (std::ranges::none_of(rays.all(), PixelRays::isRay))
-        throw UsageError("the display shows nothing: no pixel has a ray");
-    fitted.mesh = fitCells(rays, tolerancePx, stop);
-    fitted.fitMs = fitting.ms();
-    fitted.certifyMs = 0;
-    certify(projection, stop, fitted);
-    return fitted;
+    CertifiedCells cells = fitCells(projection, sizePx, tolerancePx, stop);
+    const double fitMs = fitting.ms() - cells.certifyMs;
+    return {std::move(cells.mesh),
+            std::move(cells.pixels.owners),
+            std::move(cells.pixels.errorsPx),
+            cells.pixels.certificate,
+            fitMs,
+            cells.certifyMs};
 }
 
 }  // namespace curvewall
