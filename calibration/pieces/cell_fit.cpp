@@ -207,6 +207,7 @@ private:
     std::vector<uint32_t> cellsThatFail(const CutDisplay& display, const std::vector<uint32_t>& cellOfPiece,
                                         CertifiedCells& fitted) const {
         constexpr double kFloat = 1 - 1e-7;  // what rounding an error to a float may hide
+        fitted.pixels = {};                  // before there are others
         const Stopwatch certifying;
         fitted.pixels = certifyPieces(rays_, fitted.mesh, stop_);
         fitted.certifyMs = certifying.ms();
