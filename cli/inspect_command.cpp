@@ -3,7 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/pieces/piece_drawing.h"
 #include "calibration/pieces/piece_fit.h"
-#include "calibration/pieces/ray_image.h"
+#include "calibration/pieces/pixel_rays.h"
 #include "calibration/readers/wall_reader.h"
 #include "calibration/stopwatch.h"
 #include "cli/blend_mask_files.h"
@@ -77,10 +77,12 @@ Frame errorFrame(const Display& display, const FittedPieces& fitted) {
 // The unit ray of every pixel centre, NaN in holes.
 Frame rayFrame(const Display& display) {
     Frame frame{display.sizePx, 3, {}};
-    const RayImage rays(*display.projection, display.sizePx);
-    for (const glm::dvec3& ray : rays.all()) {
-        const glm::vec3 unit(glm::normalize(ray));
-        frame.texels.insert(frame.texels.end(), {unit.x, unit.y, unit.z});
+    const PixelRays rays(*display.projection, display.sizePx);
+    for (int y = 0; y < display.sizePx.y; ++y) {
+        for (int x = 0; x < display.sizePx.x; ++x) {
+            const glm::vec3 unit(glm::normalize(rays.at({x, y})));
+            frame.texels.insert(frame.texels.end(), {unit.x, unit.y, unit.z});
+        }
     }
     return frame;
 }

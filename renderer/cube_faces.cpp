@@ -2,7 +2,7 @@
 
 #include "calibration/parallel.h"
 #include "calibration/pieces/ownership.h"
-#include "calibration/pieces/ray_image.h"
+#include "calibration/pieces/pixel_rays.h"
 #include "renderer/request_limits.h"
 
 #include <glm/geometric.hpp>
@@ -44,11 +44,16 @@ bool isClosed(const Display& display) {
 }  // namespace
 
 std::vector<glm::vec4> displayRays(const Display& display) {
-    const RayImage exact(*display.projection, display.sizePx);
-    std::vector<glm::vec4> rays;
-    rays.reserve(exact.all().size());
-    for (const glm::dvec3& ray : exact.all())
-        rays.push_back(RayImage::isRay(ray) ? glm::vec4(glm::vec3(glm::normalize(ray)), 1) : glm::vec4(0));
+    const PixelRays exact(*display.projection, display.sizePx);
+    const auto width = static_cast<size_t>(display.sizePx.x);
+    std::vector<glm::vec4> rays(width * static_cast<size_t>(display.sizePx.y));
+    parallelRanges(display.sizePx.y, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y)
+            for (int x = 0; x < display.sizePx.x; ++x)
+                if (const glm::dvec3 ray = exact.at({x, y}); PixelRays::isRay(ray))
+                    rays[static_cast<size_t>(y) * width + static_cast<size_t>(x)] =
+                        glm::vec4(glm::vec3(glm::normalize(ray)), 1);
+    });
     return rays;
 }
 

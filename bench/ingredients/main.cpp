@@ -7,7 +7,6 @@
 #include "calibration/pieces/cell_fit.h"
 #include "calibration/pieces/lower_bound.h"
 #include "calibration/pieces/piece_fit.h"
-#include "calibration/pieces/ray_image.h"
 
 #include <algorithm>
 #include <array>
@@ -103,9 +102,8 @@ Rows fewestOfFits(const std::function<Measured(double tolerancePx)>& fit) {
 }
 
 Rows adaptiveTriangles(const MeasuredWall& wall) {
-    const RayImage rays(*wall.projection, wall.sizePx);
     return fewestOfFits([&](double tolerancePx) {
-        const PieceMesh mesh = fitCells(rays, tolerancePx).pieces.mesh;
+        const PieceMesh mesh = fitCells(*wall.projection, wall.sizePx, tolerancePx).pieces.mesh;
         return Measured{measure(*wall.projection, mesh, tolerancePx).maxPx, triangleCount(mesh)};
     });
 }

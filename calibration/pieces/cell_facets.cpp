@@ -38,18 +38,18 @@ glm::dmat2x3 completed(glm::dvec3 m, std::optional<glm::dvec3> alongX, std::opti
     return {*alongX, *alongY};
 }
 
-FlatModel flatModelOf(const RayImage& rays, const std::vector<glm::ivec2>& pixels) {
+FlatModel flatModelOf(const PixelRays& rays, const std::vector<SeenPixel>& pixels) {
     FlatModel model;
-    for (glm::ivec2 px : pixels) {
+    for (const auto& [px, ray] : pixels) {
         model.s0 += centreOf(px) / static_cast<double>(pixels.size());
-        model.m0 += rays.at(px) / static_cast<double>(pixels.size());
+        model.m0 += ray / static_cast<double>(pixels.size());
     }
     glm::dmat2 spread(0);
     glm::dmat2x3 common(0);
-    for (glm::ivec2 px : pixels) {
+    for (const auto& [px, ray] : pixels) {
         const glm::dvec2 ds = centreOf(px) - model.s0;
         spread += glm::outerProduct(ds, ds);
-        common += glm::outerProduct(rays.at(px) - model.m0, ds);
+        common += glm::outerProduct(ray - model.m0, ds);
     }
     const double largest = std::max(spread[0][0], spread[1][1]);
     if (glm::determinant(spread) > 1e-6 * largest * largest) {
@@ -67,24 +67,24 @@ FlatModel flatModelOf(const RayImage& rays, const std::vector<glm::ivec2>& pixel
     return model;
 }
 
-bool hasHoles(const Cell& cell, const std::vector<glm::ivec2>& pixels) {
+bool hasHoles(const Cell& cell, const std::vector<SeenPixel>& pixels) {
     const glm::ivec2 counts = glm::min(cell.sizePx(), glm::ivec2(kLattice));
     return pixels.size() < static_cast<size_t>(counts.x) * static_cast<size_t>(counts.y);
 }
 
-bool isThin(const std::vector<glm::ivec2>& pixels) {
+bool isThin(const std::vector<SeenPixel>& pixels) {
     constexpr int kFewPx = 4;
-    glm::ivec2 least = pixels.front(), most = least;
-    for (glm::ivec2 px : pixels) {
-        least = glm::min(least, px);
-        most = glm::max(most, px);
+    glm::ivec2 least = pixels.front().px, most = least;
+    for (const SeenPixel& pixel : pixels) {
+        least = glm::min(least, pixel.px);
+        most = glm::max(most, pixel.px);
     }
     return std::min(most.x - least.x, most.y - least.y) + 1 < kFewPx;
 }
 
 // Where a display ends within a cell, the few pixels that it has there do not say how its surface goes on to
 // the cell's corners; those beside the cell do.
-std::vector<glm::ivec2> pixelsAround(const RayImage& rays, const Cell& cell) {
+std::vector<SeenPixel> pixelsAround(const PixelRays& rays, const Cell& cell) {
     const glm::ivec2 size = cell.sizePx();
     const Cell around{glm::max(cell.fromPx - size, glm::ivec2(0)), glm::min(cell.toPx + size, rays.sizePx())};
     return latticePixels(rays, around, 3 * kLattice);
@@ -101,9 +101,8 @@ double facetDeterminant(const std::array<glm::dvec3, 4>& m, const std::array<uin
 //
 // The pixels around the cell have a small say: they decide what its own leave open, where a display ends
 // within the cell or the cell is thin.
-std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
-                                    const std::vector<glm::ivec2>& own,
-                                    const std::vector<glm::ivec2>& around) {
+std::array<glm::dvec3, 4> bestPlane(const PixelRays& rays, const Cell& cell,
+                                    const std::vector<SeenPixel>& own, const std::vector<SeenPixel>& around) {
     constexpr double kSayOfOthers = 1e-3;
     const FlatModel model = flatModelOf(rays, around.empty() ? own : around);
     const glm::dvec2 half = 0.5 * glm::dvec2(cell.sizePx());
@@ -111,26 +110,35 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
     const glm::dmat3 fromRay = glm::inverse(axes);
     const auto place = [&](glm::dvec2 px) { return (px - model.s0) / half; };
 
+    // A pixel gives the rows (c, 0, -u c.y, -u c.z) and (0, c, -v c.y, -v c.z), so the normal equations are
+    // made of the moments of c, with c.x = 1.
+    Eigen::Matrix3d plain = Eigen::Matrix3d::Zero(), byU = plain, byV = plain, bySquares = plain;
+    const auto add = [&](const SeenPixel& pixel, double weight) {
+        const glm::dvec3 seen = fromRay * pixel.ray;
+        const Eigen::Vector3d c(1, seen.y / seen.x, seen.z / seen.x);
+        const glm::dvec2 uv = place(centreOf(pixel.px));
+        const Eigen::Matrix3d moment = weight * c * c.transpose();
+        plain += moment;
+        byU += uv.x * moment;
+        byV += uv.y * moment;
+        bySquares += glm::dot(uv, uv) * moment;
+    };
+    for (const SeenPixel& pixel : own) add(pixel, 1);
+    for (const SeenPixel& pixel : around) add(pixel, kSayOfOthers);
+
+    Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
+    normal.block<3, 3>(0, 0) = normal.block<3, 3>(3, 3) = plain;
+    normal.block<3, 2>(0, 6) = -byU.rightCols<2>();
+    normal.block<3, 2>(3, 6) = -byV.rightCols<2>();
+    normal.block<2, 6>(6, 0) = normal.block<6, 2>(0, 6).transpose();
+    normal.block<2, 2>(6, 6) = bySquares.bottomRightCorner<2, 2>();
+    Eigen::Matrix<double, 8, 1> right, flat;
+    right << byU.col(0), byV.col(0), -bySquares.col(0).tail<2>();
     // And a trace of "it does not bend", where they leave it open too.
     const double trace = 1e-6 * static_cast<double>(own.size());
-    Eigen::Matrix<double, 8, 8> normal = trace * Eigen::Matrix<double, 8, 8>::Identity();
-    Eigen::Matrix<double, 8, 1> flat, right;
     flat << 0, 1, 0, 0, 0, 1, 0, 0;
-    right = trace * flat;
-    const auto add = [&](glm::ivec2 px, double weight) {
-        glm::dvec3 c = fromRay * rays.at(px);
-        c /= c.x;
-        const glm::dvec2 uv = place(centreOf(px));
-        for (int axis = 0; axis < 2; ++axis) {
-            Eigen::Matrix<double, 8, 1> row = Eigen::Matrix<double, 8, 1>::Zero();
-            row.segment<3>(Eigen::Index{3} * axis) << c.x, c.y, c.z;
-            row.tail<2>() << -uv[axis] * c.y, -uv[axis] * c.z;
-            normal += weight * row * row.transpose();
-            right += weight * uv[axis] * row;
-        }
-    };
-    for (glm::ivec2 px : own) add(px, 1);
-    for (glm::ivec2 px : around) add(px, kSayOfOthers);
+    normal.diagonal().array() += trace;
+    right += trace * flat;
     const Eigen::Matrix<double, 8, 1> h = normal.ldlt().solve(right);
     const glm::dmat3 fromC(h[0], h[3], 1, h[1], h[4], h[6], h[2], h[5], h[7]);
     const glm::dmat3 fromPlace = axes * glm::inverse(fromC);
@@ -141,15 +149,15 @@ std::array<glm::dvec3, 4> bestPlane(const RayImage& rays, const Cell& cell,
 
 // Near a pole or a rim, where a display's scale has no bound, a plane can be right at every pixel's centre
 // and span half the space between them. Such pieces would touch everything.
-bool isWiderThanSeen(const RayImage& rays, const std::vector<glm::ivec2>& pixels,
-                     const std::array<glm::dvec3, 4>& corners) {
+bool isWiderThanSeen(const std::vector<SeenPixel>& pixels, const std::array<glm::dvec3, 4>& corners) {
     constexpr double kMostTimes = 4;
     constexpr double kRounding = 1e-12;  // of one ray seen by all
     glm::dvec3 mean(0);
-    for (glm::ivec2 px : pixels) mean += glm::normalize(rays.at(px));
+    for (const SeenPixel& pixel : pixels) mean += glm::normalize(pixel.ray);
     mean = glm::normalize(mean);
     double seen = 0, spanned = 0;
-    for (glm::ivec2 px : pixels) seen = std::max(seen, glm::distance(glm::normalize(rays.at(px)), mean));
+    for (const SeenPixel& pixel : pixels)
+        seen = std::max(seen, glm::distance(glm::normalize(pixel.ray), mean));
     for (const glm::dvec3& corner : corners)
         spanned = std::max(spanned, glm::distance(glm::normalize(corner), mean));
     return seen > kRounding && !(spanned <= kMostTimes * seen);
@@ -172,24 +180,26 @@ size_t facetAt(const Cell& cell, bool fallingDiagonal, glm::ivec2 px) {
     return fallingDiagonal ? at.y > at.x : at.x + at.y > 1;
 }
 
-std::vector<glm::ivec2> latticePixels(const RayImage& rays, const Cell& cell, int perAxis) {
+std::vector<SeenPixel> latticePixels(const PixelRays& rays, const Cell& cell, int perAxis) {
     const glm::ivec2 size = cell.sizePx();
     const glm::ivec2 counts = glm::min(size, glm::ivec2(perAxis));
     const auto position = [&](int i, int axis) {
         return cell.fromPx[axis] + (counts[axis] > 1 ? i * (size[axis] - 1) / (counts[axis] - 1) : 0);
     };
-    std::vector<glm::ivec2> pixels;
+    std::vector<SeenPixel> pixels;
+    pixels.reserve(static_cast<size_t>(counts.x) * static_cast<size_t>(counts.y));
+    const auto add = [&](glm::ivec2 px) {
+        if (const glm::dvec3 ray = rays.at(px); PixelRays::isRay(ray)) pixels.push_back({px, ray});
+    };
     for (int j = 0; j < counts.y; ++j)
-        for (int i = 0; i < counts.x; ++i)
-            if (const glm::ivec2 px(position(i, 0), position(j, 1)); rays.has(px)) pixels.push_back(px);
+        for (int i = 0; i < counts.x; ++i) add({position(i, 0), position(j, 1)});
     for (int y = cell.fromPx.y; y < cell.toPx.y && pixels.empty(); ++y)
-        for (int x = cell.fromPx.x; x < cell.toPx.x && pixels.empty(); ++x)
-            if (rays.has({x, y})) pixels.push_back({x, y});
+        for (int x = cell.fromPx.x; x < cell.toPx.x && pixels.empty(); ++x) add({x, y});
     return pixels;
 }
 
-double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm::dvec3, 4>& m, bool falling,
-                    const std::vector<glm::ivec2>& pixels) {
+double facetErrorPx(const PixelRays& rays, const Cell& cell, const std::array<glm::dvec3, 4>& m, bool falling,
+                    const std::vector<SeenPixel>& pixels) {
     const std::array<glm::ivec2, 4> corners = cornersOf(cell);
     std::array<glm::dmat3, 2> h;
     for (size_t k = 0; k < 2; ++k) {
@@ -201,22 +211,22 @@ double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm
     }
     const bool thin = isThin(pixels);
     double worst = 0;
-    for (glm::ivec2 px : pixels)
-        worst = std::max(worst, facetErrorPx(rays, px, h[facetAt(cell, falling, px)], thin));
+    for (const SeenPixel& pixel : pixels)
+        worst = std::max(worst, facetErrorPx(rays, pixel, h[facetAt(cell, falling, pixel.px)], thin));
     return worst;
 }
 
-CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
+CellFacets facetsOf(const PixelRays& rays, const Cell& cell) {
     CellFacets facets;
-    const std::vector<glm::ivec2> pixels = latticePixels(rays, cell, kLattice);
+    const std::vector<SeenPixel> pixels = latticePixels(rays, cell, kLattice);
     facets.isEmpty = pixels.empty();
     if (facets.isEmpty) return facets;
 
     facets.pixelCount = static_cast<int>(pixels.size());
     facets.isThin = isThin(pixels);
-    const auto fit = [&](const std::vector<glm::ivec2>& around) {
+    const auto fit = [&](const std::vector<SeenPixel>& around) {
         facets.corners = bestPlane(rays, cell, pixels, around);
-        facets.errorPx = isWiderThanSeen(rays, around.empty() ? pixels : around, facets.corners)
+        facets.errorPx = isWiderThanSeen(around.empty() ? pixels : around, facets.corners)
                              ? kInfinity
                              : facetErrorPx(rays, cell, facets.corners, true, pixels);
     };
@@ -228,37 +238,39 @@ CellFacets facetsOf(const RayImage& rays, const Cell& cell) {
     return facets;
 }
 
-CellFacets facetsOfLonePixel(const RayImage& rays, const Cell& cell) {
-    return {bestPlane(rays, cell, {cell.fromPx}, {}), 0, 1, false, true};
+CellFacets facetsOfLonePixel(const PixelRays& rays, const Cell& cell) {
+    return {bestPlane(rays, cell, {{cell.fromPx, rays.at(cell.fromPx)}}, {}), 0, 1, false, true};
 }
 
-double facetErrorPx(const RayImage& rays, glm::ivec2 px, const glm::dmat3& screenFromRay, bool isThin) {
+double facetErrorPx(const PixelRays& rays, const SeenPixel& pixel, const glm::dmat3& screenFromRay,
+                    bool isThin) {
     constexpr double kExact = 1e-6;  // then the ray that is shown is the pixel's
-    const glm::dvec2 centre = centreOf(px);
-    const glm::dvec3 seen = screenFromRay * rays.at(px);
+    const glm::dvec2 centre = centreOf(pixel.px);
+    const glm::dvec3 seen = screenFromRay * pixel.ray;
     if (!(seen.z > 0)) return kInfinity;
     const double landsPx = glm::distance(glm::dvec2(seen) / seen.z, centre);
     if (!isThin || landsPx <= kExact) return landsPx;
-    const auto offset = rays.offsetPx(px, glm::inverse(screenFromRay) * glm::dvec3(centre, 1));
+    const auto offset = rays.offsetPx(pixel.px, glm::inverse(screenFromRay) * glm::dvec3(centre, 1));
     return offset ? std::max(landsPx, glm::length(*offset)) : landsPx;
 }
 
-int bestCut(const RayImage& rays, const Cell& cell) {
+Cut bestCut(const PixelRays& rays, const Cell& cell) {
     // The error falls with the square of a cell's size, so its root says how many cells are still to come.
     constexpr double kLargestErrorPx = 1e4;
-    const auto cellsToCome = [&](const Cell& half) {
-        return std::sqrt(std::min(facetsOf(rays, half).errorPx, kLargestErrorPx));
+    const auto cellsToCome = [&](const CellFacets& half) {
+        return std::sqrt(std::min(half.errorPx, kLargestErrorPx));
     };
-    int best = -1;
+    Cut best;
     double fewest = kInfinity;
     const glm::ivec2 size = cell.sizePx();
     const int longer = size.x >= size.y ? 0 : 1;
     for (int axis : {longer, 1 - longer}) {
         if (size[axis] < 2) continue;
         const auto [first, second] = halvesOf(cell, axis);
-        const double cells = cellsToCome(first) + cellsToCome(second);
+        const Cut cut{axis, {facetsOf(rays, first), facetsOf(rays, second)}};
+        const double cells = cellsToCome(cut.halves[0]) + cellsToCome(cut.halves[1]);
         if (cells < fewest) {
-            best = axis;
+            best = cut;
             fewest = cells;
         }
     }

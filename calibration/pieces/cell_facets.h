@@ -3,7 +3,7 @@
 
 #include "calibration/pieces/cell_tree.h"
 #include "calibration/pieces/piece_mesh.h"
-#include "calibration/pieces/ray_image.h"
+#include "calibration/pieces/pixel_rays.h"
 
 #include <array>
 #include <vector>
@@ -20,9 +20,15 @@ const FacetCorners& facetCorners(bool fallingDiagonal);
 // Which of the two facets has the pixel's centre.
 size_t facetAt(const Cell& cell, bool fallingDiagonal, glm::ivec2 px);
 
+// A pixel that has a ray.
+struct SeenPixel {
+    glm::ivec2 px{0};
+    glm::dvec3 ray{0};
+};
+
 // Pixels with a ray on a lattice of at most `perAxis` x `perAxis`, the cell's outermost pixels included.
 // Where the lattice finds none but the cell has some, the first of them.
-std::vector<glm::ivec2> latticePixels(const RayImage& rays, const Cell& cell, int perAxis);
+std::vector<SeenPixel> latticePixels(const PixelRays& rays, const Cell& cell, int perAxis);
 
 struct CellFacets {
     std::array<glm::dvec3, 4> corners{};  // of the one plane that fits its pixels best
@@ -33,20 +39,26 @@ struct CellFacets {
 };
 
 // The larger error of a cell's pixels when its facets have these corners.
-double facetErrorPx(const RayImage& rays, const Cell& cell, const std::array<glm::dvec3, 4>& corners,
-                    bool fallingDiagonal, const std::vector<glm::ivec2>& pixels);
+double facetErrorPx(const PixelRays& rays, const Cell& cell, const std::array<glm::dvec3, 4>& corners,
+                    bool fallingDiagonal, const std::vector<SeenPixel>& pixels);
 
-CellFacets facetsOf(const RayImage& rays, const Cell& cell);
+CellFacets facetsOf(const PixelRays& rays, const Cell& cell);
 
 // Those of a single pixel that has nothing to do with what is around it.
-CellFacets facetsOfLonePixel(const RayImage& rays, const Cell& cell);
+CellFacets facetsOfLonePixel(const PixelRays& rays, const Cell& cell);
 
 // How far a pixel's ray lands from its centre; in a thin cell, if that is more, how far from there the
 // display has the ray that is shown at the centre. The two are about the same where the facet is as steep as
 // the display, but between pixels in a line nothing else sees to that.
-double facetErrorPx(const RayImage& rays, glm::ivec2 px, const glm::dmat3& screenFromRay, bool isThin);
+double facetErrorPx(const PixelRays& rays, const SeenPixel& pixel, const glm::dmat3& screenFromRay,
+                    bool isThin);
 
-// The axis across which a cut leaves the least to do, or -1 for a cell of one pixel.
-int bestCut(const RayImage& rays, const Cell& cell);
+struct Cut {
+    int axis = -1;                       // across which a cell is cut; -1 for a cell of one pixel
+    std::array<CellFacets, 2> halves{};  // that this makes
+};
+
+// The cut that leaves the least to do.
+Cut bestCut(const PixelRays& rays, const Cell& cell);
 
 }  // namespace curvewall

@@ -2,7 +2,7 @@
 // Any display: cells that are cut where the error is, with one facet or two each.
 
 #include "calibration/pieces/cell_mesh.h"
-#include "calibration/pieces/ray_image.h"
+#include "calibration/pieces/certificate.h"
 
 #include <stop_token>
 #include <unordered_set>
@@ -23,15 +23,18 @@ struct CutDisplay {
 struct FittedCells {
     CellMesh pieces;
     CutDisplay cells;
+    CertifiedPixels pixels;
+    double certifyMs = 0;  // what the last look at every pixel took
 };
 
 // Pieces whose error is at most the tolerance at every pixel, and of which each pixel with a ray has one.
-// Throws UsageError where that takes more than kMostPieces, and FitStopped.
-FittedCells fitCells(const RayImage& rays, double tolerancePx, const std::stop_token& stop = {});
+// Throws UsageError where that takes more than kMostPieces or no pixel has a ray, and FitStopped.
+FittedCells fitCells(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+                     const std::stop_token& stop = {});
 
 // The same for a display that has changed a little, from the cells of an earlier fit: those that fail are
 // cut, the others only where the tolerance asks for it.
-FittedCells refitCells(const RayImage& rays, double tolerancePx, CutDisplay cells,
+FittedCells refitCells(const Projection& projection, double tolerancePx, CutDisplay cells,
                        const std::vector<uint32_t>& failing, const std::stop_token& stop = {});
 
 }  // namespace curvewall

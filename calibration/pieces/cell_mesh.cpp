@@ -32,7 +32,7 @@ struct SharedCorner {
 
 class MeshMaker {
 public:
-    MeshMaker(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,
+    MeshMaker(const CellTree& tree, const std::vector<CellFacets>& facets, const PixelRays& rays,
               const std::unordered_set<uint32_t>& loose, double mostDisagreementPx,
               const std::vector<uint32_t>& flat)
         : tree_(tree),
@@ -211,11 +211,12 @@ private:
     }
 
     void addPieces(uint32_t id, const std::array<uint32_t, 4>& vertices) {
-        const std::vector<glm::ivec2> pixels = latticePixels(rays_, tree_.cell(id), kLattice);
+        const std::vector<SeenPixel> pixels = latticePixels(rays_, tree_.cell(id), kLattice);
         if (loose_.contains(id) || oneFacet_.contains(id)) {
             addPiece(id, vertices);
             if (loose_.contains(id)) return;
-            for (glm::ivec2 px : pixels) addSample(static_cast<uint32_t>(result_.mesh.pieces.size()) - 1, px);
+            for (const SeenPixel& pixel : pixels)
+                addSample(static_cast<uint32_t>(result_.mesh.pieces.size()) - 1, pixel);
         } else {
             addTwoPieces(id, vertices, pixels);
         }
@@ -230,7 +231,7 @@ private:
 
     // Split along the diagonal that leaves the smaller error.
     void addTwoPieces(uint32_t id, const std::array<uint32_t, 4>& vertices,
-                      const std::vector<glm::ivec2>& pixels) {
+                      const std::vector<SeenPixel>& pixels) {
         const Cell& cell = tree_.cell(id);
         std::array<glm::dvec3, 4> m{};
         for (size_t i = 0; i < 4; ++i) m[i] = result_.mesh.vertices[vertices[i]].m;
@@ -240,17 +241,17 @@ private:
         for (const auto& facet : facetCorners(falling))
             addPiece(id, std::array<uint32_t, 3>{vertices[facet[0]], vertices[facet[1]], vertices[facet[2]]});
         for (size_t k = 0; k < 2; ++k)
-            for (glm::ivec2 px : pixels)
-                if (facetAt(cell, falling, px) == k) addSample(first + static_cast<uint32_t>(k), px);
+            for (const SeenPixel& pixel : pixels)
+                if (facetAt(cell, falling, pixel.px) == k) addSample(first + static_cast<uint32_t>(k), pixel);
     }
 
-    void addSample(uint32_t piece, glm::ivec2 px) {
+    void addSample(uint32_t piece, const SeenPixel& pixel) {
         const auto corner = [&](size_t i) {
             return glm::dvec3(result_.mesh.vertices[result_.mesh.pieces[piece].vertices[i]].s, 1);
         };
         const glm::dvec3 blend =
-            glm::inverse(glm::dmat3(corner(0), corner(1), corner(2))) * glm::dvec3(centreOf(px), 1);
-        result_.samples.push_back({piece, {blend.x, blend.y, blend.z, 0}, centreOf(px), rays_.at(px)});
+            glm::inverse(glm::dmat3(corner(0), corner(1), corner(2))) * glm::dvec3(centreOf(pixel.px), 1);
+        result_.samples.push_back({piece, {blend.x, blend.y, blend.z}, centreOf(pixel.px), pixel.ray});
     }
 
     void findLongEdges() {
@@ -330,7 +331,7 @@ private:
 
     const CellTree& tree_;
     const std::vector<CellFacets>& facets_;
-    const RayImage& rays_;
+    const PixelRays& rays_;
     const std::unordered_set<uint32_t>& loose_;
     double mostDisagreementPx_;
     const std::vector<uint32_t>& flat_;
@@ -348,7 +349,7 @@ private:
 
 }  // namespace
 
-CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,
+CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const PixelRays& rays,
                      const std::unordered_set<uint32_t>& loose, double mostDisagreementPx,
                      const std::vector<uint32_t>& flat) {
     return MeshMaker(tree, facets, rays, loose, mostDisagreementPx, flat).make();

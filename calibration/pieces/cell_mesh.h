@@ -25,7 +25,7 @@ struct CellMesh {
 //
 // Cells of `flat`, in that order of importance, are one facet where a corner can be given up for it: that is
 // where the other three put it, and none of those is given up. The others are two.
-CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,
+CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const PixelRays& rays,
                      const std::unordered_set<uint32_t>& loose, double mostDisagreementPx,
                      const std::vector<uint32_t>& flat = {});
 

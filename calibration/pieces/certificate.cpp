@@ -3,7 +3,6 @@
 #include "calibration/parallel.h"
 #include "calibration/pieces/fit_stop.h"
 #include "calibration/pieces/ownership.h"
-#include "calibration/pieces/pixel_rays.h"
 
 #include <glm/geometric.hpp>
 
@@ -59,7 +58,11 @@ private:
 
 CertifiedPixels certifyPieces(const Projection& projection, const PieceMesh& mesh,
                               const std::stop_token& stop, int every) {
-    const PixelRays rays(projection, mesh.sizePx);
+    return certifyPieces(PixelRays(projection, mesh.sizePx), mesh, stop, every);
+}
+
+CertifiedPixels certifyPieces(const PixelRays& rays, const PieceMesh& mesh, const std::stop_token& stop,
+                              int every) {
     const Ownership ownership(mesh);
     const glm::ivec2 lattice = latticeSize(mesh.sizePx, every);
     const auto width = static_cast<size_t>(lattice.x);

@@ -2,7 +2,7 @@
 // The geometric error of a piece mesh, measured at every pixel centre by the piece that owns it.
 
 #include "calibration/pieces/piece_mesh.h"
-#include "calibration/projections/projection.h"
+#include "calibration/pieces/pixel_rays.h"
 
 #include <glm/vec2.hpp>
 
@@ -31,8 +31,10 @@ struct CertifiedPixels {
     Certificate certificate;
 };
 
-// Looks at the pixels in every `every`-th row and column and at no other. Rays are computed as they are
-// needed and not kept. Throws FitStopped soon after a stop is requested.
+// Looks at the pixels in every `every`-th row and column and at no other, in one pass. Throws FitStopped soon
+// after a stop is requested.
+CertifiedPixels certifyPieces(const PixelRays& rays, const PieceMesh& mesh, const std::stop_token& stop = {},
+                              int every = 1);
 CertifiedPixels certifyPieces(const Projection& projection, const PieceMesh& mesh,
                               const std::stop_token& stop = {}, int every = 1);
 

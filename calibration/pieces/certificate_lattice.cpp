@@ -3,7 +3,7 @@
 #include "calibration/parallel.h"
 #include "calibration/pieces/fit_stop.h"
 #include "calibration/pieces/ownership.h"
-#include "calibration/pieces/ray_image.h"
+#include "calibration/pieces/pixel_rays.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

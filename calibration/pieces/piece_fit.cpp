@@ -15,14 +15,24 @@
 namespace curvewall {
 namespace {
 
-void certify(const Projection& projection, const std::stop_token& stop, FittedPieces& fitted) {
-    const Stopwatch certifying;
-    CertifiedPixels pixels = certifyPieces(projection, fitted.mesh, stop);
+void take(CertifiedPixels pixels, FittedPieces& fitted) {
     fitted.owners = std::make_shared<const std::vector<int32_t>>(std::move(pixels.owners));
     fitted.errorsPx = std::move(pixels.errorsPx);
     fitted.certificate = pixels.certificate;
     fitted.fullyCertifiedAt = std::chrono::steady_clock::now();
+}
+
+void certify(const Projection& projection, const std::stop_token& stop, FittedPieces& fitted) {
+    const Stopwatch certifying;
+    take(certifyPieces(projection, fitted.mesh, stop), fitted);
     fitted.certifyMs = certifying.ms();
+}
+
+void take(FittedCells cells, FittedPieces& fitted) {
+    take(std::move(cells.pixels), fitted);
+    fitted.certifyMs = cells.certifyMs;
+    fitted.mesh = std::move(cells.pieces.mesh);
+    fitted.basis = basisOf(std::move(cells));
 }
 
 // A sparse look tells of most meshes that they will not do.
@@ -119,13 +129,7 @@ FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double t
     const Stopwatch fitting;
     if (!(unrolls(projection, sizePx) && fitQuadGrid(projection, sizePx, tolerancePx, stop, fitted)) &&
         !fitRound(projection, sizePx, tolerancePx, stop, fitted)) {
-        const RayImage rays(projection, sizePx, stop);
-        if (std::ranges::none_of(rays.all(), PixelRays::isRay))
-            throw UsageError("the display shows nothing: no pixel has a ray");
-        FittedCells fit = fitCells(rays, tolerancePx, stop);
-        fitted.mesh = std::move(fit.pieces.mesh);
-        fitted.basis = basisOf(std::move(fit));
-        certify(projection, stop, fitted);
+        take(fitCells(projection, sizePx, tolerancePx, stop), fitted);
     }
     fitted.fitMs = fitting.ms() - fitted.certifyMs;
     fitted.vertexRays = vertexRaysOf(projection, fitted.mesh);

@@ -72,7 +72,7 @@ private:
         const Stopwatch certifying;
         lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
         if (lattice_->outlineHasMoved()) {
-            takeOwners(RayImage(now_, fitted_.mesh.sizePx, stop_));
+            takeOwners();
             lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
         }
         fitted_.certifyMs += certifying.ms();
@@ -84,11 +84,9 @@ private:
     bool isCovered() const { return !lattice_->outlineHasMoved() && !lattice_->isEmpty(); }
     bool canBeMended() const { return isCovered() && turnedOver().empty(); }
 
-    void takeOwners(const RayImage& rays) {
-        std::vector<int32_t> owners = ownerImage(fitted_.mesh);
-        for (size_t i = 0; i < owners.size(); ++i)
-            if (!RayImage::isRay(rays.all()[i])) owners[i] = kNoPiece;
-        fitted_.owners = std::make_shared<const std::vector<int32_t>>(std::move(owners));
+    void takeOwners() {
+        fitted_.owners =
+            std::make_shared<const std::vector<int32_t>>(certifyPieces(now_, fitted_.mesh, stop_).owners);
     }
 
     // The pieces that are off by too much somewhere, and those that have turned over on the way, which a
@@ -160,12 +158,11 @@ private:
         for (uint32_t piece : failing()) cells.push_back(fitted_.basis->cellOfPiece[piece]);
         std::ranges::sort(cells);
         cells.erase(std::ranges::unique(cells).begin(), cells.end());
-        const RayImage rays(now_, before_.mesh.sizePx, stop_);
-        FittedCells fit = refitCells(rays, tolerancePx_, *fitted_.basis->cells, cells, stop_);
+        FittedCells fit = refitCells(now_, tolerancePx_, *fitted_.basis->cells, cells, stop_);
         fitted_.mesh = std::move(fit.pieces.mesh);
+        fitted_.owners = std::make_shared<const std::vector<int32_t>>(std::move(fit.pixels.owners));
         fitted_.basis = basisOf(std::move(fit));
         fitted_.vertexRays = vertexRaysOf(now_, fitted_.mesh);
-        takeOwners(rays);
         fitted_.fitMs += fitting.ms();
     }
 

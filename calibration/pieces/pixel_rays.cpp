@@ -1,8 +1,25 @@
 #include "calibration/pieces/pixel_rays.h"
 
+#include "calibration/parallel.h"
+#include "calibration/pieces/fit_stop.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace curvewall {
+
+void PixelRays::keep(const std::stop_token& stop) {
+    const auto width = static_cast<size_t>(sizePx_.x);
+    std::vector<glm::dvec3> all(width * static_cast<size_t>(sizePx_.y));
+    parallelRanges(sizePx_.y, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y) {
+            throwIfStopped(stop);
+            for (int x = 0; x < sizePx_.x; ++x)
+                all[static_cast<size_t>(y) * width + static_cast<size_t>(x)] = computed({x, y});
+        }
+    });
+    kept_ = std::move(all);
+}
 
 // What one pixel along the axis changes of the direction, `centre` at `px`; zero where no neighbour has a
 // ray.

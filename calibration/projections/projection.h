@@ -32,7 +32,8 @@ public:
     // Whether it is another from another eye. One that only knows directions is the same from everywhere.
     virtual bool dependsOnEye() const { return true; }
 
-    // The same display seen from another eye (metres, wall coordinates); what is large is shared. Throws UsageError where the eye cannot see it.
+    // The same display seen from another eye (metres, wall coordinates); what is large is shared. Throws
+    // UsageError where the eye cannot see it.
     virtual std::shared_ptr<const Projection> seenFrom(glm::dvec3 eyeM) const = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Projections simple enough to be checked by eye.
 
+#include "calibration/pieces/pixel_rays.h"
 #include "calibration/wall.h"
 
 #include <glm/glm.hpp>
@@ -68,6 +69,19 @@ public:
 
 private:
     RayAt rayAt_;
+};
+
+// The rays of pixels, with the projection that they come from.
+class FunctionRays : public PixelRays {
+public:
+    FunctionRays(RayFunctionProjection::RayAt rayAt, glm::ivec2 sizePx)
+        : FunctionRays(std::make_shared<RayFunctionProjection>(std::move(rayAt)), sizePx) {}
+
+private:
+    FunctionRays(const std::shared_ptr<const Projection>& projection, glm::ivec2 sizePx)
+        : PixelRays(*projection, sizePx), projection_(projection) {}
+
+    std::shared_ptr<const Projection> projection_;
 };
 
 // A wall of one display.

@@ -14,12 +14,10 @@ namespace {
 
 constexpr glm::ivec2 kSizePx(64, 48);
 
-RayImage imageOf(test::RayAt rays, glm::ivec2 sizePx = kSizePx) {
-    return {RayFunctionProjection(std::move(rays)), sizePx};
-}
+FunctionRays imageOf(test::RayAt rays, glm::ivec2 sizePx = kSizePx) { return {std::move(rays), sizePx}; }
 
 TEST(CellFacets, APlaneIsFoundFromAnyCellOfAFlatScreen) {
-    const RayImage rays = imageOf(test::flatRays(kSizePx));
+    const FunctionRays rays = imageOf(test::flatRays(kSizePx));
     test::Random random(2);
     for (int i = 0; i < 200; ++i) {
         Cell cell;
@@ -36,13 +34,13 @@ TEST(CellFacets, APlaneIsFoundFromAnyCellOfAFlatScreen) {
 }
 
 TEST(CellFacets, APlaneIsFoundThroughHoles) {
-    const RayImage rays = imageOf(
+    const FunctionRays rays = imageOf(
         test::withHoles(test::flatRays(kSizePx), [](glm::dvec2 px) { return test::noiseAt(px, 1) < 0.7; }));
     for (int x = 0; x < 64; x += 16) EXPECT_LT(facetsOf(rays, {{x, 0}, {x + 16, 48}}).errorPx, 1e-3);
 }
 
 TEST(CellFacets, ACellWithoutARayIsEmptyAndOneRayIsEnough) {
-    const RayImage rays = imageOf(
+    const FunctionRays rays = imageOf(
         test::withHoles(test::flatRays(kSizePx), [](glm::dvec2 px) { return px != glm::dvec2(13.5, 7.5); }));
     EXPECT_TRUE(facetsOf(rays, {{16, 0}, {32, 48}}).isEmpty);
     const CellFacets facets = facetsOf(rays, {{0, 0}, {16, 48}});  // no lattice meets it
@@ -53,10 +51,10 @@ TEST(CellFacets, ACellWithoutARayIsEmptyAndOneRayIsEnough) {
 
 TEST(CellFacets, TheErrorIsThatOfTheWorstPixel) {
     // A flat screen but for one pixel, which is 3 px off.
-    const RayImage rays = imageOf(test::displaced(test::flatRays(kSizePx), [](glm::dvec2 px) {
+    const FunctionRays rays = imageOf(test::displaced(test::flatRays(kSizePx), [](glm::dvec2 px) {
         return px == glm::dvec2(0.5, 0.5) ? glm::dvec2(3, 0) : glm::dvec2(0);
     }));
-    const RayImage flat = imageOf(test::flatRays(kSizePx));
+    const FunctionRays flat = imageOf(test::flatRays(kSizePx));
     const Cell cell{{0, 0}, {64, 48}};
     const auto corners = facetsOf(flat, cell).corners;
     for (const bool falling : {true, false})
@@ -64,11 +62,11 @@ TEST(CellFacets, TheErrorIsThatOfTheWorstPixel) {
 }
 
 TEST(CellFacets, LatticesHaveTheOutermostPixels) {
-    const RayImage rays = imageOf(test::flatRays(kSizePx));
-    const std::vector<glm::ivec2> pixels = latticePixels(rays, {{10, 5}, {41, 8}}, 5);
+    const FunctionRays rays = imageOf(test::flatRays(kSizePx));
+    const std::vector<SeenPixel> pixels = latticePixels(rays, {{10, 5}, {41, 8}}, 5);
     EXPECT_EQ(pixels.size(), 15u);
     for (const glm::ivec2 corner : {glm::ivec2(10, 5), {40, 5}, {10, 7}, {40, 7}})
-        EXPECT_NE(std::ranges::find(pixels, corner), pixels.end());
+        EXPECT_NE(std::ranges::find(pixels, corner, &SeenPixel::px), pixels.end());
 }
 
 TEST(CellFacets, TheFacetOfAPixelIsItsOwner) {
@@ -101,14 +99,14 @@ TEST(CellFacets, CutsGoAcrossTheBend) {
         const double angle = (px.x / 64 - 0.5) * 2;
         return glm::dvec3(std::sin(angle), 0.5 - px.y / 48, -std::cos(angle));
     };
-    EXPECT_EQ(bestCut(imageOf(upright), {{0, 0}, {64, 48}}), 0);
+    EXPECT_EQ(bestCut(imageOf(upright), {{0, 0}, {64, 48}}).axis, 0);
     const auto lying = [](glm::dvec2 px) {
         const double angle = (px.y / 48 - 0.5) * 2;
         return glm::dvec3(px.x / 64 - 0.5, -std::sin(angle), -std::cos(angle));
     };
-    EXPECT_EQ(bestCut(imageOf(lying), {{0, 0}, {64, 48}}), 1);
-    EXPECT_EQ(bestCut(imageOf(lying), {{0, 0}, {64, 1}}), 0);
-    EXPECT_EQ(bestCut(imageOf(lying), {{5, 5}, {6, 6}}), -1);
+    EXPECT_EQ(bestCut(imageOf(lying), {{0, 0}, {64, 48}}).axis, 1);
+    EXPECT_EQ(bestCut(imageOf(lying), {{0, 0}, {64, 1}}).axis, 0);
+    EXPECT_EQ(bestCut(imageOf(lying), {{5, 5}, {6, 6}}).axis, -1);
 }
 
 }  // namespace

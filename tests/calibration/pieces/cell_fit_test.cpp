@@ -23,12 +23,12 @@ FittedPieces fit(test::RayAt rays, glm::ivec2 sizePx, double tolerancePx) {
 }
 
 void expectCertified(const FittedPieces& fitted, const test::RayAt& rayAt, double tolerancePx) {
-    const RayImage rays(RayFunctionProjection(rayAt), fitted.mesh.sizePx);
+    const FunctionRays rays(rayAt, fitted.mesh.sizePx);
     const std::vector<int32_t> owners = ownerImage(fitted.mesh);
     double largest = 0;
     for (int y = 0; y < fitted.mesh.sizePx.y; ++y) {
         for (int x = 0; x < fitted.mesh.sizePx.x; ++x) {
-            const size_t i = rays.indexOf({x, y});
+            const auto i = static_cast<size_t>(y * fitted.mesh.sizePx.x + x);
             ASSERT_EQ((*fitted.owners)[i], rays.has({x, y}) ? owners[i] : kNoPiece);
             if (!rays.has({x, y})) continue;
             ASSERT_NE(owners[i], kNoPiece);

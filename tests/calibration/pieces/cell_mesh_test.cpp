@@ -17,7 +17,7 @@ namespace {
 constexpr glm::ivec2 kSizePx(96, 80);
 
 struct Made {
-    RayImage rays;
+    FunctionRays rays;
     CellTree tree;
     std::vector<CellFacets> facets;
     CellMesh cells;
@@ -26,7 +26,7 @@ struct Made {
 // Cells cut at random, so that long edges have hanging vertices, some of which hang on others.
 Made made(test::RayAt rayAt, uint64_t seed, int cuts, const std::unordered_set<uint32_t>& loose = {},
           double mostDisagreementPx = 100) {
-    Made made{{RayFunctionProjection(std::move(rayAt)), kSizePx}, CellTree(kSizePx, {3, 2}), {}, {}};
+    Made made{{std::move(rayAt), kSizePx}, CellTree(kSizePx, {3, 2}), {}, {}};
     test::Random random(seed);
     for (int i = 0; i < cuts; ++i) {
         const std::vector<uint32_t> whole = made.tree.wholeCells();
@@ -106,7 +106,7 @@ TEST(CellMesh, ASmoothDisplayIsOneMeshWithoutTwoVerticesAtOnePlace) {
 TEST(CellMesh, PiecesOwnEveryPixelWithARayOnce) {
     const Made fisheye = made(test::fisheyeRays(kSizePx), 7, 80);
     const PieceMesh& mesh = fisheye.cells.mesh;
-    std::vector<int> cover(fisheye.rays.all().size());
+    std::vector<int> cover(static_cast<size_t>(kSizePx.x * kSizePx.y));
     for (const Piece& piece : mesh.pieces) {
         PieceMesh alone = mesh;
         alone.pieces = {piece};
@@ -115,7 +115,8 @@ TEST(CellMesh, PiecesOwnEveryPixelWithARayOnce) {
     }
     for (size_t i = 0; i < cover.size(); ++i) {
         ASSERT_LE(cover[i], 1);
-        if (RayImage::isRay(fisheye.rays.all()[i])) {
+        const auto x = static_cast<int>(i) % kSizePx.x, y = static_cast<int>(i) / kSizePx.x;
+        if (PixelRays::isRay(fisheye.rays.at({x, y}))) {
             ASSERT_EQ(cover[i], 1);
         }
     }
@@ -126,7 +127,7 @@ TEST(CellMesh, PiecesOwnEveryPixelWithARayOnce) {
 TEST(CellMesh, AJumpIsNotBridged) {
     // The right half shows what lies 30 px further: vertices on the jump are there once for each side.
     const auto jump = [](glm::dvec2 px) { return glm::dvec2(px.x < 48 ? 0 : 30, 0); };
-    RayImage rays(RayFunctionProjection(test::displaced(test::flatRays(kSizePx), jump)), kSizePx);
+    const FunctionRays rays(test::displaced(test::flatRays(kSizePx), jump), kSizePx);
     CellTree tree(kSizePx, {4, 4});
     std::vector<CellFacets> facets;
     for (uint32_t id = 0; id < tree.cellCount(); ++id) facets.push_back(facetsOf(rays, tree.cell(id)));
@@ -140,7 +141,7 @@ TEST(CellMesh, AJumpIsNotBridged) {
 TEST(CellMesh, MirroredHalvesKeepTheirSides) {
     // The right half is the left one's mirror image: on the fold both show the same.
     const auto mirror = [](glm::dvec2 px) { return glm::dvec2(px.x < 48 ? 0 : 2 * (48 - px.x), 0); };
-    RayImage rays(RayFunctionProjection(test::displaced(test::flatRays(kSizePx), mirror)), kSizePx);
+    const FunctionRays rays(test::displaced(test::flatRays(kSizePx), mirror), kSizePx);
     CellTree tree(kSizePx, {4, 4});
     std::vector<CellFacets> facets;
     for (uint32_t id = 0; id < tree.cellCount(); ++id) facets.push_back(facetsOf(rays, tree.cell(id)));

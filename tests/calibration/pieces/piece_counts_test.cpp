@@ -1,6 +1,5 @@
 // How the number of pieces goes with the tolerance, and what the fit saves against a uniform grid.
 
-#include "calibration/pieces/ownership.h"
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/projections/camera_texture.h"
 #include "calibration/projections/lens_projection.h"
@@ -68,20 +67,6 @@ PieceMesh uniformTriangles(const CameraTexture& projection, glm::ivec2 sizePx, i
     return meshFromGrid(grid, false);
 }
 
-double largestErrorPx(const RayImage& rays, const PieceMesh& mesh) {
-    const std::vector<int32_t> owners = ownerImage(mesh);
-    double largest = 0;
-    for (int y = 0; y < mesh.sizePx.y; ++y) {
-        for (int x = 0; x < mesh.sizePx.x; ++x) {
-            const int32_t owner = owners[rays.indexOf({x, y})];
-            if (!rays.has({x, y}) || owner == kNoPiece) continue;  // hardly any, on the border
-            const glm::dvec3 seen = mesh.pieces[static_cast<size_t>(owner)].screenFromRay * rays.at({x, y});
-            largest = std::max(largest, glm::distance(glm::dvec2(seen) / seen.z, centreOf({x, y})));
-        }
-    }
-    return largest;
-}
-
 TEST(PieceCounts, GrowWithTheInverseRootOfTheToleranceOnACylinder) {
     const glm::ivec2 sizePx(800, 600);
     const double exponent = exponentOf(*test::fullCylinderWall(sizePx).displays[0].projection, sizePx,
@@ -113,9 +98,11 @@ TEST(PieceCounts, ACameraTextureTakesFarFewerThanAUniformGrid) {
     constexpr double kTolerancePx = 0.5;
     const glm::ivec2 sizePx(1600, 1200);
     const CameraTexture projection = bentCameraTexture(sizePx);
-    const RayImage rays(projection, sizePx);
+    const auto largestErrorPx = [&](int cells) {
+        return certifyPieces(projection, uniformTriangles(projection, sizePx, cells)).certificate.maxPx;
+    };
     int cells = 1;
-    while (largestErrorPx(rays, uniformTriangles(projection, sizePx, cells)) > kTolerancePx) ++cells;
+    while (largestErrorPx(cells) > kTolerancePx) ++cells;
     const auto pieces = static_cast<double>(fitPieces(projection, sizePx, kTolerancePx).mesh.pieces.size());
     EXPECT_GE(2.0 * cells * cells, 2.5 * pieces);
 }
