@@ -96,7 +96,7 @@ private:
     // Makes one facet of the two of as many cells as the tolerance allows.
     FittedCells flattened(FittedCells fitted) {
         constexpr double kSlack = 0.9;  // what the own plane of such a cell may be off, of the tolerance
-        constexpr int kRounds = 8;
+        constexpr int kRounds = 16;
         FittedCells flat{{}, fitted.cells, {}};
         const CutDisplay& display = fitted.cells;
         std::vector<std::pair<double, uint32_t>> candidates;
