@@ -1,6 +1,7 @@
 // curvewall inspect
 
 #include "calibration/errors.h"
+#include "calibration/pieces/lower_bound.h"
 #include "calibration/pieces/piece_drawing.h"
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/pieces/pixel_rays.h"
@@ -35,8 +36,7 @@ using nlohmann::json;
 struct InspectCommand {
     std::string wall, display, eye, errorMap, pieces, rays, blend;
     double tolerancePx = kDefaultTolerancePx;
-    bool asJson = false;
-    bool refit = false;
+    bool asJson = false, refit = false, lowerBound = false;
 };
 
 json reportOf(const Display& display, double tolerancePx, const FittedPieces& fitted) {
@@ -68,6 +68,17 @@ void printReport(const Display& display, double tolerancePx, const FittedPieces&
         "  geometric error over every pixel: {:.4f} px at most (at {}, {}), 99 % below {:.4f}, mean {:.4f}\n",
         c.maxPx, c.maxAt.x, c.maxAt.y, c.p99Px, c.meanPx);
     fmt::print("  {} pixels without a piece, {} holes\n", c.uncoveredPixels, c.holes);
+}
+
+// Any mesh has at least so many pieces.
+void addLowerBound(json& report, size_t pieces, double bound) {
+    report["lower_bound_pieces"] = bound;
+    report["pieces_over_lower_bound"] = static_cast<double>(pieces) / bound;
+}
+
+void printLowerBound(size_t pieces, double bound) {
+    fmt::print("  lower bound of the number of pieces: {:.1f}, so {:.2f} times as many as the bound\n", bound,
+               static_cast<double>(pieces) / bound);
 }
 
 Frame errorFrame(const Display& display, const FittedPieces& fitted) {
@@ -135,6 +146,13 @@ void run(const InspectCommand& command) {
             printReport(*display, command.tolerancePx, fitted);
             if (followed) printReport(*followed);
         }
+        if (!command.lowerBound) continue;
+        const size_t pieces = fitted.mesh.pieces.size();
+        const double bound = lowerBoundOfPieces(*display->projection, display->sizePx, command.tolerancePx);
+        if (command.asJson)
+            addLowerBound(report["displays"].back(), pieces, bound);
+        else
+            printLowerBound(pieces, bound);
     }
     if (!command.blend.empty()) {
         const BlendMaskFiles files = writeBlendMasks(wall, command.wall, command.blend);
@@ -163,6 +181,8 @@ void addInspectCommand(CLI::App& app) {
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
     inspect->add_flag("--json", command->asJson, "Report as JSON");
+    inspect->add_flag("--lower-bound", command->lowerBound,
+                      "Also estimate how many pieces any mesh needs at least, which takes seconds");
     inspect
         ->add_option("--error-map", command->errorMap, "Error of every pixel in pixels, .exr, NaN in holes")
         ->check(exrFile);

@@ -182,6 +182,7 @@ private:
     std::optional<Candidate> small(double radiusPx, glm::dvec2 stretch) const;
     void useSidesNear(const Frame& frame);
     double value(const Candidate& candidate, const Frame& frame, double barrier) const;
+    std::vector<size_t> cornersBeyond(const Candidate& candidate) const;
     Quadratic quadraticAt(const Candidate& candidate, const Frame& frame, double barrier) const;
     void addShape(Quadratic& sum, const Corners& corners, const Frame& frame, double barrier) const;
     void addErrors(Quadratic& sum, const Candidate& candidate, const Frame& frame, double barrier) const;
@@ -355,27 +356,44 @@ Candidate moved(const Candidate& candidate, const Frame& frame, const Vector& mo
     return next;
 }
 
+std::vector<size_t> CellSearch::cornersBeyond(const Candidate& candidate) const {
+    std::vector<size_t> corners;
+    const glm::dvec2 middle = middleOf(candidate.corners);
+    for (const Place& place : placesOfCells()) {
+        const auto off = offsetPx(projection_, candidate.screenFromRay, place.px(candidate.corners, middle));
+        if (!off || glm::length(*off) < tolerancePx_) continue;
+        corners.push_back(place.corner);
+        if (place.along > 0) corners.push_back(after(place.corner));
+    }
+    return corners;
+}
+
+// What is smooth lets shorter or more careful steps succeed. At a tear of the display none does, until the
+// corners that would cross it are held.
 bool CellSearch::grow(Candidate& candidate, double barrier) {
-    constexpr int kDampings = 8, kHalvings = 4;
-    constexpr double kLeastDamping = 1e-8;
+    constexpr int kAttempts = 8, kHalvings = 4;
+    constexpr double kLeastDamping = 1e-8, kHold = 1e8;
     const Frame frame = frameOf(candidate.corners);
     useSidesNear(frame);
     const double now = value(candidate, frame, barrier);
-    const Quadratic quadratic = quadraticAt(candidate, frame, barrier);
-    for (int i = 0; i < kDampings; ++i, damping_ *= 10) {
+    Quadratic quadratic = quadraticAt(candidate, frame, barrier);
+    for (int i = 0; i < kAttempts; ++i, damping_ *= 10) {
         Matrix damped = quadratic.hessian;
         damped.diagonal().array() += damping_;
         const Vector move = damped.ldlt().solve(-quadratic.gradient);
         if (!move.allFinite()) continue;
         double length = std::min(1.0, kLongestMove / move.head<kMoves>().cwiseAbs().maxCoeff());
+        Candidate next;
         for (int halving = 0; halving < kHalvings; ++halving, length *= 0.5) {
-            const Candidate next = moved(candidate, frame, length * move);
+            next = moved(candidate, frame, length * move);
             const double then = value(next, frame, barrier);
             if (!(then < now)) continue;
             candidate = next;
             if (halving == 0) damping_ = std::max(kLeastDamping, 0.2 * damping_);
             return now - then > 0.1 * barrier;
         }
+        for (size_t corner : cornersBeyond(next))
+            quadratic.hessian.diagonal().segment<2>(unknownOf(corner)).array() += kHold;
     }
     return false;
 }

@@ -126,6 +126,20 @@ TEST_F(Program, InspectLetsThePiecesFollowTheEye) {
     EXPECT_THAT(text.output, HasSubstr("every 8th row and column"));
 }
 
+TEST_F(Program, InspectSaysHowFarTheMeshIsFromTheLowerBound) {
+    const std::string command = "inspect " + wall() + " --display left --tolerance 0.5 --lower-bound";
+    const Outcome asJson = run("", command + " --json");
+    ASSERT_EQ(asJson.exitCode, 0) << asJson.output;
+    const json display = json::parse(asJson.output)["displays"][0];
+    const double pieces = display["pieces"], bound = display["lower_bound_pieces"];
+    EXPECT_GE(bound, 1);
+    EXPECT_LE(bound, pieces);
+    EXPECT_NEAR(display["pieces_over_lower_bound"].get<double>(), pieces / bound, 1e-9);
+    const Outcome text = run("", command);
+    EXPECT_EQ(text.exitCode, 0);
+    EXPECT_NE(text.output.find("lower bound of the number of pieces"), std::string::npos) << text.output;
+}
+
 TEST_F(Program, MasksOfAWallAreWrittenAndUsedAsInspectSays) {
     // Two flat screens that turn away from each other and share a third of what they show.
     const auto wallText = [](const json& left, const json& right) {
