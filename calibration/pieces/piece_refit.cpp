@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -43,7 +44,7 @@ public:
     FittedPieces refit() {
         followDisplay();
         if (isCertified()) return certified();
-        if (before_.basis->gridCounts != glm::ivec2(0)) {
+        if (isGrid()) {
             placeGridAnew();
             if (isCertified()) return certified();
         } else if (before_.basis->cells && !lattice_->isEmpty()) {
@@ -69,10 +70,10 @@ private:
 
     bool isCertified() {
         const Stopwatch certifying;
-        lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
+        lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, hopelessPx(), stop_);
         if (lattice_->outlineHasMoved()) {
             takeOwners(RayImage(now_, fitted_.mesh.sizePx, stop_));
-            lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
+            lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, hopelessPx(), stop_);
         }
         fitted_.certifyMs += certifying.ms();
         return isCovered() && failing().empty();
@@ -82,6 +83,10 @@ private:
     // more is none of a refit's business.
     bool isCovered() const { return !lattice_->outlineHasMoved() && !lattice_->isEmpty(); }
     bool canBeMended() const { return isCovered() && turnedOver().empty(); }
+
+    // A grid that is off anywhere is placed anew.
+    double hopelessPx() const { return isGrid() ? tolerancePx_ : std::numeric_limits<double>::infinity(); }
+    bool isGrid() const { return before_.basis->gridCounts != glm::ivec2(0); }
 
     void takeOwners(const RayImage& rays) {
         std::vector<int32_t> owners = ownerImage(fitted_.mesh);
@@ -171,7 +176,7 @@ private:
     FittedPieces certified() {
         fitted_.certificate = lattice_->certificate();
         if (every_ == 1) {
-            fitted_.errorsPx = lattice_->errorsPx();
+            fitted_.errorsPx = std::move(*lattice_).takeErrorsPx();
             fitted_.fullyCertifiedAt = std::chrono::steady_clock::now();
         }
         return std::move(fitted_);
