@@ -45,8 +45,7 @@ public:
         followDisplay();
         if (isCertified()) return certified();
         if (isGrid()) {
-            placeGridAnew();
-            if (isCertified()) return certified();
+            if (placeGridAnew()) return certified();
         } else if (before_.basis->cells && !lattice_->isEmpty()) {
             for (int rings : kRings)
                 if (canBeMended() && mend(rings)) return certified();
@@ -114,16 +113,39 @@ private:
         return pieces;
     }
 
-    // Screen positions move too, so the owners are others.
-    void placeGridAnew() {
+    // As many columns and rows where the bend asks for them now, then more. False where that is not enough.
+    bool placeGridAnew() {
+        constexpr int kMostRounds = 16;
         const Stopwatch fitting;
         const glm::ivec2 sizePx = before_.mesh.sizePx;
-        BalancedGrid grid = balancedGrid(now_, BendProfile(now_, sizePx), before_.basis->gridCounts, stop_);
+        std::optional<BalancedGrid> grid =
+            balancedGrid(now_, BendProfile(now_, sizePx), before_.basis->gridCounts, stop_);
+        fitted_.fitMs += fitting.ms();
+        if (take(std::move(*grid))) return true;
+        QuadGridSearch search(now_, sizePx, tolerancePx_, stop_);
+        grid = search.coarsest();
+        for (int round = 0; grid && round < kMostRounds; ++round) {
+            if (take(std::move(*grid))) return true;
+            grid = search.finer();
+        }
+        return false;
+    }
+
+    // Screen positions are others, so the owners are too. True where all is well; a display that does not
+    // unroll any more has no such grid.
+    bool take(BalancedGrid grid) {
+        const Stopwatch fitting;
         fitted_.mesh = std::move(grid.pieces.mesh);
+        const auto isExact = [&](const Piece& piece) {
+            const auto vertex = [&](size_t i) { return fitted_.mesh.vertices[piece.vertices[i]]; };
+            return isExactQuad(vertex(0), vertex(1), vertex(2), vertex(3));
+        };
+        if (!std::ranges::all_of(fitted_.mesh.pieces, isExact)) return false;
         fitted_.basis = basisOf(std::move(grid));
         fitted_.vertexRays = vertexRaysOf(now_, fitted_.mesh);
         fitted_.owners = std::make_shared<const std::vector<int32_t>>(ownerImage(fitted_.mesh));
         fitted_.fitMs += fitting.ms();
+        return isCertified();
     }
 
     // Balances the pieces that fail and those around them. True where none fails any more.
