@@ -13,10 +13,10 @@ namespace curvewall {
 namespace {
 
 struct GpuConeNode {
-    glm::vec4 planes[4];
+    glm::vec4 planes[kMostPieceEdges];
     glm::uvec4 link;
 };
-static_assert(sizeof(GpuConeNode) == 80);
+static_assert(sizeof(GpuConeNode) == 112);
 
 bool isOnBorder(glm::dvec2 a, glm::dvec2 b, glm::dvec2 size) {
     for (int axis = 0; axis < 2; ++axis)
@@ -28,9 +28,10 @@ bool isOnBorder(glm::dvec2 a, glm::dvec2 b, glm::dvec2 size) {
 std::vector<glm::dvec3> innerEdgePlanes(const PieceMesh& mesh, const Piece& piece) {
     const std::vector<glm::dvec3> all = edgePlanes(mesh, piece);
     std::vector<glm::dvec3> inner;
-    for (uint32_t i = 0; i < piece.vertexCount; ++i) {
-        const glm::dvec2 from = mesh.vertices[piece.vertices[i]].s;
-        const glm::dvec2 to = mesh.vertices[piece.vertices[(i + 1) % piece.vertexCount]].s;
+    const std::vector<PieceEdge> edges = edgesOf(mesh, piece);
+    for (size_t i = 0; i < edges.size(); ++i) {
+        const glm::dvec2 from = mesh.vertices[piece.vertices[edges[i].from]].s;
+        const glm::dvec2 to = mesh.vertices[piece.vertices[edges[i].to]].s;
         if (!isOnBorder(from, to, mesh.sizePx)) inner.push_back(all[i]);
     }
     return inner;
@@ -56,8 +57,8 @@ std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
     std::vector<GpuConeNode> nodes;
     for (const ConeNode& node : buildPieceTree(mesh)) {
         GpuConeNode& gpu = nodes.emplace_back();
-        for (size_t i = 0; i < 4; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
-        gpu.link = {node.next, static_cast<uint32_t>(node.piece), 0, 0};
+        for (size_t i = 0; i < kMostPieceEdges; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
+        gpu.link = {node.next, static_cast<uint32_t>(node.piece), node.planeCount, 0};
     }
     return nodes;
 }

@@ -7,8 +7,8 @@
 layout(local_size_x = GROUP_SIZE) in;
 
 struct ConeNode {
-    vec4 planes[4];  // xyz: through the eye; zero where the node is unbounded
-    uvec4 link;      // x: the node after this subtree, y: the piece of a leaf or NO_PIECE
+    vec4 planes[6];  // xyz: through the eye; zero beyond the last
+    uvec4 link;      // x: the node after this subtree, y: the piece of a leaf or NO_PIECE, z: how many planes
 };
 const uint NO_PIECE = 0xffffffffu;
 const uint SEEN_FROM_BEHIND = 0x80000000u;
@@ -28,12 +28,15 @@ layout(location = 5) uniform uint capacity;  // of `pairs`; what lies beyond is 
 
 shared uint sums[GROUP_SIZE];
 
+bool isBehind(vec3 plane, vec3 a, vec3 b, vec3 c) { return max(max(dot(plane, a), dot(plane, b)), dot(plane, c)) < 0.0; }
+
+// No loop to link.z: with one, llvmpipe (Mesa 22.3) does not come out of the loop in walk().
 bool outside(ConeNode node, vec3 a, vec3 b, vec3 c) {
     for (int i = 0; i < 4; ++i) {
-        vec3 plane = node.planes[i].xyz;
-        if (max(max(dot(plane, a), dot(plane, b)), dot(plane, c)) < 0.0) return true;
+        if (isBehind(node.planes[i].xyz, a, b, c)) return true;
     }
-    return false;
+    if (node.link.z <= 4u) return false;
+    return isBehind(node.planes[4].xyz, a, b, c) || isBehind(node.planes[5].xyz, a, b, c);
 }
 
 vec3 cornerRay(uint triangle, uint corner) { return rayToVertex(corners[3u * triangle + corner]); }

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace curvewall {
 namespace {
@@ -73,7 +74,78 @@ private:
             for (uint32_t cell : failing) refine(display, cell, isHopeful);
             failing = tryFit(display, pieces);
         }
-        return {std::move(pieces), std::move(display)};
+        return flattened({std::move(pieces), std::move(display)});
+    }
+
+    // Makes one facet of the two of as many cells as the tolerance allows.
+    FittedCells flattened(FittedCells fitted) {
+        constexpr double kSlack = 0.9;  // what the own plane of such a cell may be off, of the tolerance
+        constexpr int kRounds = 14;
+        CutDisplay display = fitted.cells;
+        display.flat.clear();
+        std::vector<std::pair<double, uint32_t>> candidates;
+        for (uint32_t cell : display.tree.wholeCells())
+            if (!display.facets[cell].isEmpty && !display.facets[cell].isThin &&
+                !display.loose.contains(cell))
+                if (const double errorPx = ownErrorPx(display, cell); errorPx <= kSlack * tolerancePx_)
+                    candidates.emplace_back(errorPx, cell);
+        std::ranges::sort(candidates);
+        for (const auto& [errorPx, cell] : candidates) display.flat.push_back(cell);
+        for (int round = 0; round < kRounds && !display.flat.empty(); ++round) {
+            CellMesh pieces;
+            const std::vector<uint32_t> failing = tryFit(display, pieces, &fitted.pieces.mesh);
+            if (failing.empty()) return {std::move(pieces), std::move(display)};
+            const std::unordered_set<uint32_t> given = cellsToSplit(display.flat, failing, pieces);
+            std::erase_if(display.flat, [&](uint32_t cell) { return given.contains(cell); });
+        }
+        return fitted;
+    }
+
+    // Cells that were balanced before have their vertices in the same order, where less follows from others.
+    static void startFrom(const PieceMesh& balanced, CellMesh& pieces) {
+        std::vector<glm::dvec3> unknowns(pieces.motion.unknownCount());
+        for (size_t v = 0; v < balanced.vertices.size(); ++v)
+            if (const auto terms = pieces.motion.termsOf(v); terms.size() == 1 && terms.front().weight == 1)
+                unknowns[terms.front().unknown] = balanced.vertices[v].m;
+        for (size_t v = 0; v < balanced.vertices.size(); ++v) {
+            const auto terms = pieces.motion.termsOf(v);
+            if (terms.empty()) continue;
+            pieces.mesh.vertices[v].m = glm::dvec3(0);
+            for (const Motion::Term& term : terms)
+                pieces.mesh.vertices[v].m += term.weight * unknowns[term.unknown];
+        }
+        updateHomographies(pieces.mesh);
+    }
+
+    // Of the flat cells those that fail themselves, and those beside others that do.
+    static std::unordered_set<uint32_t> cellsToSplit(const std::vector<uint32_t>& flat,
+                                                     const std::vector<uint32_t>& failing,
+                                                     const CellMesh& pieces) {
+        const std::unordered_set<uint32_t> areFlat(flat.begin(), flat.end());
+        std::unordered_set<uint32_t> split;
+        std::vector<uint32_t> others;
+        for (uint32_t cell : failing)
+            areFlat.contains(cell) ? void(split.insert(cell)) : others.push_back(cell);
+        split.merge(cellsAt(pieces, others));
+        return split;
+    }
+
+    // Cells that share a vertex with one of these.
+    static std::unordered_set<uint32_t> cellsAt(const CellMesh& pieces, const std::vector<uint32_t>& cells) {
+        const std::unordered_set<uint32_t> chosen(cells.begin(), cells.end());
+        const auto verticesOf = [&](size_t k) {
+            const Piece& piece = pieces.mesh.pieces[k];
+            return std::span(piece.vertices).first(piece.vertexCount);
+        };
+        std::vector<bool> touched(pieces.mesh.vertices.size());
+        for (size_t k = 0; k < pieces.mesh.pieces.size(); ++k)
+            if (chosen.contains(pieces.cellOfPiece[k]))
+                for (uint32_t vertex : verticesOf(k)) touched[vertex] = true;
+        std::unordered_set<uint32_t> near = chosen;
+        for (size_t k = 0; k < pieces.mesh.pieces.size(); ++k)
+            if (std::ranges::any_of(verticesOf(k), [&](uint32_t vertex) { return touched[vertex]; }))
+                near.insert(pieces.cellOfPiece[k]);
+        return near;
     }
 
     // A cell on its own, with the axis to cut it across when it is off by more than `errorPx`; -1 for none.
@@ -137,12 +209,13 @@ private:
     }
 
     // Balances the facets. The answer is the cells that do not meet the tolerance.
-    std::vector<uint32_t> tryFit(CutDisplay& display, CellMesh& pieces) {
+    std::vector<uint32_t> tryFit(CutDisplay& display, CellMesh& pieces, const PieceMesh* start = nullptr) {
         // Nothing goes on from one to the next that is worth the time.
         if (areTiny(display))
             std::ranges::copy(display.tree.wholeCells(), std::inserter(display.loose, display.loose.end()));
-        pieces =
-            meshOfCells(display.tree, display.facets, rays_, display.loose, kMostDisagreement * tolerancePx_);
+        pieces = meshOfCells(display.tree, display.facets, rays_, display.loose,
+                             kMostDisagreement * tolerancePx_, display.flat);
+        if (start) startFrom(*start, pieces);
         constexpr double kMargin = 0.98;  // for the pixels between the samples
         pieces.mesh = balanceFacets(std::move(pieces.mesh), pieces.motion, pieces.samples,
                                     kMargin * tolerancePx_, stop_)

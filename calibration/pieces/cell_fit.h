@@ -1,7 +1,8 @@
 #pragma once
-// Any display: cells that are cut where the error is, with two facets each.
+// Any display: cells that are cut where the error is, with one facet or two each.
 
 #include "calibration/pieces/cell_mesh.h"
+#include "calibration/pieces/ray_image.h"
 
 #include <stop_token>
 #include <unordered_set>
@@ -16,6 +17,7 @@ struct CutDisplay {
     size_t pieceCount = 0;
     std::unordered_set<uint32_t> loose{};       // cells that have let go of their neighbours
     std::unordered_set<uint32_t> lonePixels{};  // that have nothing to do with what is around them
+    std::vector<uint32_t> flat{};               // see meshOfCells
 };
 
 struct FittedCells {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -32,17 +33,25 @@ struct SharedCorner {
 class MeshMaker {
 public:
     MeshMaker(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,
-              const std::unordered_set<uint32_t>& loose, double mostDisagreementPx)
-        : tree_(tree), facets_(facets), rays_(rays), loose_(loose), mostDisagreementPx_(mostDisagreementPx) {}
+              const std::unordered_set<uint32_t>& loose, double mostDisagreementPx,
+              const std::vector<uint32_t>& flat)
+        : tree_(tree),
+          facets_(facets),
+          rays_(rays),
+          loose_(loose),
+          mostDisagreementPx_(mostDisagreementPx),
+          flat_(flat) {}
 
     CellMesh make() {
         result_.mesh.sizePx = tree_.sizePx();
         for (uint32_t cell : tree_.wholeCells())
             if (!facets_[cell].isEmpty) addCorners(cell);
         findLongEdges();
+        for (uint32_t cell : flat_) giveUpACorner(cell);
         placeAlongRays();
-        for (const auto& [vertex, edge] : hanging_) result_.mesh.vertices[vertex].m = pointOf(vertex);
-        for (const auto& [cell, vertices] : cellVertices_) addPieces(cell, vertices);
+        const std::vector<PieceVertex> placed = result_.mesh.vertices;
+        for (const auto& [vertex, blend] : blends_) result_.mesh.vertices[vertex].m = pointOf(vertex, placed);
+        for (const auto& [cell, vertices] : verticesOfCell_) addPieces(cell, vertices);
         addMotion();
         updateHomographies(result_.mesh);
         return std::move(result_);
@@ -50,10 +59,8 @@ public:
 
 private:
     using Terms = std::map<uint32_t, double>;
-    struct Hanging {
-        uint32_t from, to;  // vertices at the ends of the long edge
-        double share;       // of the way
-    };
+    // A vertex that is where others put it.
+    using Blend = std::vector<std::pair<uint32_t, double>>;
 
     bool hasPieces(uint32_t cell) const { return cell != kNone && !facets_[cell].isEmpty; }
 
@@ -162,7 +169,7 @@ private:
         std::array<uint32_t, 4> vertices{};
         const std::array<glm::ivec2, 4> corners = cornersOf(tree_.cell(id));
         for (size_t i = 0; i < 4; ++i) vertices[i] = vertexOf(id, corners[i]);
-        cellVertices_.emplace_back(id, vertices);
+        verticesOfCell_.emplace(id, vertices);
     }
 
     // Each cell alone knows how far its corners should be from the eye in proportion to each other. Least
@@ -178,7 +185,7 @@ private:
             right[i] += weight * difference;
             right[j] -= weight * difference;
         };
-        for (const auto& [cell, vertices] : cellVertices_) {
+        for (const auto& [cell, vertices] : verticesOfCell_) {
             std::array<double, 4> logM{};
             for (size_t i = 0; i < 4; ++i) {
                 logM[i] = std::log(glm::length(facets_[cell].corners[i]));
@@ -197,24 +204,41 @@ private:
         const Eigen::VectorXd logs = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(right);
         for (Eigen::Index i = 0; i < count; ++i)
             result_.mesh.vertices[static_cast<size_t>(i)].m *= std::exp(logs[i]);
+        for (const auto& [cell, vertices] : verticesOfCell_) {
+            if (!loose_.contains(cell)) continue;
+            for (size_t i = 0; i < 4; ++i) result_.mesh.vertices[vertices[i]].m = facets_[cell].corners[i];
+        }
     }
 
-    // Two facets, split along the diagonal that leaves the smaller error.
     void addPieces(uint32_t id, const std::array<uint32_t, 4>& vertices) {
+        const std::vector<glm::ivec2> pixels = latticePixels(rays_, tree_.cell(id), kLattice);
+        if (loose_.contains(id) || oneFacet_.contains(id)) {
+            addPiece(id, vertices);
+            if (loose_.contains(id)) return;
+            for (glm::ivec2 px : pixels) addSample(static_cast<uint32_t>(result_.mesh.pieces.size()) - 1, px);
+        } else {
+            addTwoPieces(id, vertices, pixels);
+        }
+    }
+
+    void addPiece(uint32_t id, std::span<const uint32_t> vertices) {
+        Piece piece;
+        for (uint32_t vertex : vertices) piece.vertices[piece.vertexCount++] = vertex;
+        result_.mesh.pieces.push_back(piece);
+        result_.cellOfPiece.push_back(id);
+    }
+
+    // Split along the diagonal that leaves the smaller error.
+    void addTwoPieces(uint32_t id, const std::array<uint32_t, 4>& vertices,
+                      const std::vector<glm::ivec2>& pixels) {
         const Cell& cell = tree_.cell(id);
-        const std::vector<glm::ivec2> pixels = latticePixels(rays_, cell, kLattice);
         std::array<glm::dvec3, 4> m{};
         for (size_t i = 0; i < 4; ++i) m[i] = result_.mesh.vertices[vertices[i]].m;
         const bool falling =
             facetErrorPx(rays_, cell, m, true, pixels) <= facetErrorPx(rays_, cell, m, false, pixels);
         const auto first = static_cast<uint32_t>(result_.mesh.pieces.size());
-        for (const auto& facet : facetCorners(falling)) {
-            Piece piece;
-            for (uint32_t corner : facet) piece.vertices[piece.vertexCount++] = vertices[corner];
-            result_.mesh.pieces.push_back(piece);
-            result_.cellOfPiece.push_back(id);
-        }
-        if (loose_.contains(id)) return;
+        for (const auto& facet : facetCorners(falling))
+            addPiece(id, std::array<uint32_t, 3>{vertices[facet[0]], vertices[facet[1]], vertices[facet[2]]});
         for (size_t k = 0; k < 2; ++k)
             for (glm::ivec2 px : pixels)
                 if (facetAt(cell, falling, px) == k) addSample(first + static_cast<uint32_t>(k), px);
@@ -239,15 +263,50 @@ private:
             from[along] = cell.fromPx[along];
             to[along] = cell.toPx[along];
             const double share = double(at[along] - from[along]) / double(to[along] - from[along]);
-            hanging_[vertex] = {vertexOf(longCells_[vertex], from), vertexOf(longCells_[vertex], to), share};
+            blends_[vertex] = {{vertexOf(longCells_[vertex], from), 1 - share},
+                               {vertexOf(longCells_[vertex], to), share}};
         }
     }
 
+    // A parallelogram's corner follows from the other three, m = before + after - opposite, and then the
+    // whole cell is one facet exactly.
+    void giveUpACorner(uint32_t cell) {
+        const auto found = verticesOfCell_.find(cell);
+        if (found == verticesOfCell_.end()) return;
+        const std::array<uint32_t, 4>& around = found->second;
+        for (size_t i = 0; i < 4; ++i) {
+            const std::array<uint32_t, 3> others{around[(i + 1) % 4], around[(i + 2) % 4],
+                                                 around[(i + 3) % 4]};
+            if (terms_[around[i]].empty() || blends_.contains(around[i]) || held_.contains(around[i]))
+                continue;
+            std::vector<uint32_t> roots;
+            for (uint32_t other : others) addRoots(other, roots);
+            if (std::ranges::any_of(
+                    roots, [&](uint32_t root) { return root == around[i] || givenUp_.contains(root); }))
+                continue;
+            blends_[around[i]] = {{others[0], 1}, {others[1], -1}, {others[2], 1}};
+            terms_[around[i]].clear();
+            givenUp_.insert(around[i]);
+            held_.insert(roots.begin(), roots.end());
+            oneFacet_.insert(cell);
+            return;
+        }
+    }
+
+    // The vertices that a vertex's place comes from, those on the way included.
+    void addRoots(uint32_t vertex, std::vector<uint32_t>& roots) const {
+        roots.push_back(vertex);
+        if (const auto blend = blends_.find(vertex); blend != blends_.end())
+            for (const auto& [other, weight] : blend->second) addRoots(other, roots);
+    }
+
     // A long edge may end in a vertex that hangs on a longer one.
-    glm::dvec3 pointOf(uint32_t vertex) const {
-        const auto edge = hanging_.find(vertex);
-        if (edge == hanging_.end()) return result_.mesh.vertices[vertex].m;
-        return glm::mix(pointOf(edge->second.from), pointOf(edge->second.to), edge->second.share);
+    glm::dvec3 pointOf(uint32_t vertex, const std::vector<PieceVertex>& placed) const {
+        const auto blend = blends_.find(vertex);
+        if (blend == blends_.end()) return placed[vertex].m;
+        glm::dvec3 m(0);
+        for (const auto& [other, weight] : blend->second) m += weight * pointOf(other, placed);
+        return m;
     }
 
     void addMotion() {
@@ -259,13 +318,11 @@ private:
     }
 
     const Terms& termsOf(uint32_t vertex) {
-        const auto edge = hanging_.find(vertex);
-        if (edge != hanging_.end() && terms_[vertex].empty()) {
+        const auto blend = blends_.find(vertex);
+        if (blend != blends_.end() && terms_[vertex].empty()) {
             Terms blended;
-            for (const auto& [unknown, weight] : termsOf(edge->second.from))
-                blended[unknown] += (1 - edge->second.share) * weight;
-            for (const auto& [unknown, weight] : termsOf(edge->second.to))
-                blended[unknown] += edge->second.share * weight;
+            for (const auto& [other, share] : blend->second)
+                for (const auto& [unknown, weight] : termsOf(other)) blended[unknown] += share * weight;
             terms_[vertex] = std::move(blended);
         }
         return terms_[vertex];
@@ -276,12 +333,15 @@ private:
     const RayImage& rays_;
     const std::unordered_set<uint32_t>& loose_;
     double mostDisagreementPx_;
+    const std::vector<uint32_t>& flat_;
     CellMesh result_;
     uint32_t unknownCount_ = 0;
-    std::vector<Terms> terms_;         // of every vertex
-    std::vector<uint32_t> longCells_;  // that a vertex hangs on
-    std::map<uint32_t, Hanging> hanging_;
-    std::vector<std::pair<uint32_t, std::array<uint32_t, 4>>> cellVertices_;
+    std::vector<Terms> terms_;          // of every vertex
+    std::vector<uint32_t> longCells_;   // that a vertex hangs on
+    std::map<uint32_t, Blend> blends_;  // of vertices that hang or were given up
+    std::unordered_set<uint32_t> givenUp_, held_;
+    std::unordered_set<uint32_t> oneFacet_;  // cells
+    std::map<uint32_t, std::array<uint32_t, 4>> verticesOfCell_;
     std::unordered_map<uint64_t, std::vector<SharedCorner>> corners_;
     std::map<std::pair<uint32_t, uint32_t>, bool> continues_;
 };
@@ -289,8 +349,9 @@ private:
 }  // namespace
 
 CellMesh meshOfCells(const CellTree& tree, const std::vector<CellFacets>& facets, const RayImage& rays,
-                     const std::unordered_set<uint32_t>& loose, double mostDisagreementPx) {
-    return MeshMaker(tree, facets, rays, loose, mostDisagreementPx).make();
+                     const std::unordered_set<uint32_t>& loose, double mostDisagreementPx,
+                     const std::vector<uint32_t>& flat) {
+    return MeshMaker(tree, facets, rays, loose, mostDisagreementPx, flat).make();
 }
 
 }  // namespace curvewall

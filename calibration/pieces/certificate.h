@@ -2,11 +2,12 @@
 // The geometric error of a piece mesh, measured at every pixel centre by the piece that owns it.
 
 #include "calibration/pieces/piece_mesh.h"
-#include "calibration/pieces/ray_image.h"
+#include "calibration/projections/projection.h"
 
 #include <glm/vec2.hpp>
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 namespace curvewall {
@@ -21,13 +22,22 @@ struct Certificate {
     int holes = 0;            // without a ray
 };
 
-// |H_k r(p) - p| at every pixel centre p, k being its owner; row by row from the top. NaN in holes,
-// infinity where a pixel with a ray has no piece or its ray points away from the piece.
-std::vector<float> pieceErrorsPx(const RayImage& rays, const PieceMesh& mesh,
-                                 const std::vector<int32_t>& owners);
+// Row by row from the top.
+struct CertifiedPixels {
+    std::vector<int32_t> owners;  // see ownership.h; kNoPiece in holes
+    // |H_k r(p) - p| at the pixel's centre p, k being its owner. NaN in holes, infinity where a pixel with a
+    // ray has no piece or its ray points away from the piece.
+    std::vector<float> errorsPx;
+    Certificate certificate;
+};
 
-// Pixels without a piece are counted and left out of the three figures.
+// Looks at the pixels in every `every`-th row and column and at no other. Rays are computed as they are
+// needed and not kept. Throws FitStopped soon after a stop is requested.
+CertifiedPixels certifyPieces(const Projection& projection, const PieceMesh& mesh,
+                              const std::stop_token& stop = {}, int every = 1);
+
+// The figures of such images. Pixels without a piece are counted and left out of the first three.
 Certificate certificateOf(const std::vector<float>& errorsPx, const std::vector<int32_t>& owners,
-                          glm::ivec2 sizePx);
+                          glm::ivec2 sizePx, int every = 1);
 
 }  // namespace curvewall

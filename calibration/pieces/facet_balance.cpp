@@ -54,10 +54,12 @@ public:
     void addPiece(const PieceMesh& mesh, const Motion& motion, std::span<const FacetSample> samples,
                   std::span<const double> weights) {
         const Piece& piece = mesh.pieces[samples.front().piece];
-        std::array<std::array<Eigen::Matrix3d, 4>, 4> normal;
-        std::array<Eigen::Vector3d, 4> right;
-        for (auto& row : normal) row.fill(Eigen::Matrix3d::Zero());
-        right.fill(Eigen::Vector3d::Zero());
+        std::array<std::array<Eigen::Matrix3d, kMostPieceEdges>, kMostPieceEdges> normal;
+        std::array<Eigen::Vector3d, kMostPieceEdges> right;
+        for (size_t i = 0; i < piece.vertexCount; ++i) {
+            right[i].setZero();
+            for (size_t j = 0; j < piece.vertexCount; ++j) normal[i][j].setZero();
+        }
         for (size_t k = 0; k < samples.size(); ++k) {
             const Landing landing = land(piece.screenFromRay, samples[k]);
             Eigen::Matrix<double, 2, 3> jacobian;
@@ -176,8 +178,8 @@ PieceMesh moved(PieceMesh mesh, const Motion& motion, const Eigen::VectorXd& ste
 
 // The sign of det[m], by which a facet turns one side to the eye or the other.
 int sideOf(const PieceMesh& mesh, const Piece& piece) {
-    const auto m = [&](uint32_t i) { return mesh.vertices[piece.vertices[i]].m; };
-    const double det = glm::determinant(glm::dmat3(m(0), m(1), m(2)));
+    const auto [a, b, c] = widestTriangle(mesh, piece);
+    const double det = glm::determinant(glm::dmat3(a.m, b.m, c.m));
     return (det > 0) - (det < 0);
 }
 

@@ -38,7 +38,7 @@ private:
 // A screen position in a piece, as a blend of its vertices, with the ray that the display shows there.
 struct FacetSample {
     uint32_t piece = 0;
-    std::array<double, 4> blend{};
+    std::array<double, kMostPieceEdges> blend{};
     glm::dvec2 px{0};
     glm::dvec3 ray{0};
 };

@@ -1,76 +1,105 @@
 #include "calibration/pieces/ownership.h"
 
+#include "calibration/parallel.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace curvewall {
 namespace {
 
-// Screen positions in units of 1/256 px. Displays are at most 16384 px wide, so products stay below 2^46.
-struct GridPoint {
-    int64_t x, y;
-};
+using GridPoint = glm::i64vec2;  // units of 1/256 px
 
 constexpr int64_t kUnitsPerPx = 256;
+constexpr int64_t kCentre = kUnitsPerPx / 2;
 
 GridPoint gridPoint(glm::dvec2 px) { return {std::llround(px.x / kSnapPx), std::llround(px.y / kSnapPx)}; }
 
-// Twice the area to the inner side of an edge, for a polygon that turns positively with y down.
-struct Edge {
-    GridPoint from;
-    int64_t dx, dy;
+int64_t ceilOfQuotient(int64_t a, int64_t b) { return a / b + (a % b > 0 ? 1 : 0); }
 
-    bool isTopOrLeft() const { return dy < 0 || (dy == 0 && dx > 0); }
-    bool owns(GridPoint p) const {
-        const int64_t inside = dx * (p.y - from.y) - dy * (p.x - from.x);
-        return inside > 0 || (inside == 0 && isTopOrLeft());
-    }
-};
-
-struct Polygon {
-    std::array<Edge, 4> edges;
-    size_t edgeCount = 0;
-    GridPoint least{INT64_MAX, INT64_MAX}, most{INT64_MIN, INT64_MIN};
-
-    bool owns(GridPoint p) const {
-        return std::all_of(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(edgeCount),
-                           [&](const Edge& edge) { return edge.owns(p); });
-    }
-};
-
-Polygon polygonOf(const PieceMesh& mesh, const Piece& piece) {
-    std::vector<GridPoint> corners;
-    for (uint32_t i = 0; i < piece.vertexCount; ++i)
-        corners.push_back(gridPoint(mesh.vertices[piece.vertices[i]].s));
-    const GridPoint a = corners[0], b = corners[1], c = corners[2];
-    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) < 0) std::ranges::reverse(corners);
-
-    Polygon polygon;
-    for (size_t i = 0; i < corners.size(); ++i) {
-        const GridPoint from = corners[i], to = corners[(i + 1) % corners.size()];
-        polygon.edges[polygon.edgeCount++] = {from, to.x - from.x, to.y - from.y};
-        polygon.least = {std::min(polygon.least.x, from.x), std::min(polygon.least.y, from.y)};
-        polygon.most = {std::max(polygon.most.x, from.x), std::max(polygon.most.y, from.y)};
-    }
-    return polygon;
+// The first row or column of pixels whose centre is not before a place, within a display.
+int firstCentreFrom(int64_t place, int64_t unitsPerPx, int count) {
+    return static_cast<int>(std::clamp<int64_t>(ceilOfQuotient(place, unitsPerPx), 0, count));
 }
+
+// The first pixel of a row whose centre is not left of where an edge crosses the line through its centres.
+// The edge goes down, from above or on that line to below it. Displays are at most 16384 px wide, so products
+// stay below 2^47.
+int crossingColumn(GridPoint upper, GridPoint lower, int64_t lineY, int width) {
+    const int64_t dy = lower.y - upper.y, dx = lower.x - upper.x;
+    return firstCentreFrom((upper.x - kCentre) * dy + (lineY - upper.y) * dx, kUnitsPerPx * dy, width);
+}
+
+// Where a row of centres enters and leaves a polygon, in turn.
+class Crossings {
+public:
+    void add(int column) {
+        size_t at = count_++;
+        for (; at > 0 && columns_[at - 1] > column; --at) columns_[at] = columns_[at - 1];
+        columns_[at] = column;
+    }
+    std::span<const int> ascending() const { return std::span(columns_).first(count_); }
+
+private:
+    std::array<int, kMostPieceEdges> columns_{};
+    size_t count_ = 0;
+};
 
 }  // namespace
 
-std::vector<int32_t> ownerImage(const PieceMesh& mesh) {
-    const int64_t width = mesh.sizePx.x, height = mesh.sizePx.y;
-    std::vector<int32_t> owners(static_cast<size_t>(width * height), kNoPiece);
-    for (size_t k = 0; k < mesh.pieces.size(); ++k) {
-        const Polygon polygon = polygonOf(mesh, mesh.pieces[k]);
-        const int64_t firstX = std::max<int64_t>(0, polygon.least.x / kUnitsPerPx - 1);
-        const int64_t firstY = std::max<int64_t>(0, polygon.least.y / kUnitsPerPx - 1);
-        const int64_t endX = std::min(width, polygon.most.x / kUnitsPerPx + 1);
-        const int64_t endY = std::min(height, polygon.most.y / kUnitsPerPx + 1);
-        for (int64_t y = firstY; y < endY; ++y)
-            for (int64_t x = firstX; x < endX; ++x)
-                if (polygon.owns({x * kUnitsPerPx + kUnitsPerPx / 2, y * kUnitsPerPx + kUnitsPerPx / 2}))
-                    owners[static_cast<size_t>(y * width + x)] = static_cast<int32_t>(k);
+Ownership::Ownership(const PieceMesh& mesh) : width_(mesh.sizePx.x) {
+    polygons_.reserve(mesh.pieces.size());
+    for (const Piece& piece : mesh.pieces) {
+        Polygon& polygon = polygons_.emplace_back();
+        int64_t top = std::numeric_limits<int64_t>::max(), bottom = std::numeric_limits<int64_t>::min();
+        for (; polygon.count < piece.vertexCount; ++polygon.count) {
+            const GridPoint corner = gridPoint(mesh.vertices[piece.vertices[polygon.count]].s);
+            polygon.corners[polygon.count] = corner;
+            top = std::min(top, corner.y);
+            bottom = std::max(bottom, corner.y);
+        }
+        polygon.firstRow = firstCentreFrom(top - kCentre, kUnitsPerPx, mesh.sizePx.y);
+        polygon.endRow = firstCentreFrom(bottom - kCentre, kUnitsPerPx, mesh.sizePx.y);
     }
+}
+
+void Ownership::fillRows(int fromRow, int endRow, int every, std::span<int32_t> owners) const {
+    // The lattice's first row or column at or after a pixel's.
+    const auto onLattice = [every](int px) { return (px + every - 1) / every; };
+    const auto latticeWidth = static_cast<size_t>(onLattice(width_));
+    std::ranges::fill(owners, kNoPiece);
+    for (size_t k = 0; k < polygons_.size(); ++k) {
+        const Polygon& polygon = polygons_[k];
+        const int first = std::max(fromRow, onLattice(polygon.firstRow));
+        const int end = std::min(endRow, onLattice(polygon.endRow));
+        for (int row = first; row < end; ++row) {
+            const int64_t lineY = int64_t{row} * every * kUnitsPerPx + kCentre;
+            Crossings crossings;
+            for (size_t i = 0; i < polygon.count; ++i) {
+                GridPoint upper = polygon.corners[i], lower = polygon.corners[(i + 1) % polygon.count];
+                if (upper.y > lower.y) std::swap(upper, lower);
+                if (upper.y <= lineY && lineY < lower.y)
+                    crossings.add(onLattice(crossingColumn(upper, lower, lineY, width_)));
+            }
+            int32_t* const pixels = owners.data() + static_cast<size_t>(row - fromRow) * latticeWidth;
+            const std::span<const int> columns = crossings.ascending();
+            for (size_t i = 0; i + 1 < columns.size(); i += 2)
+                std::fill(pixels + columns[i], pixels + columns[i + 1], static_cast<int32_t>(k));
+        }
+    }
+}
+
+std::vector<int32_t> ownerImage(const PieceMesh& mesh) {
+    const Ownership ownership(mesh);
+    const auto width = static_cast<size_t>(mesh.sizePx.x);
+    std::vector<int32_t> owners(width * static_cast<size_t>(mesh.sizePx.y));
+    parallelRanges(mesh.sizePx.y, [&](int begin, int end) {
+        ownership.fillRows(begin, end, 1,
+                           std::span(owners).subspan(static_cast<size_t>(begin) * width,
+                                                     static_cast<size_t>(end - begin) * width));
+    });
     return owners;
 }
 

@@ -25,6 +25,7 @@ json piecesAsJson(const PieceMesh& mesh) {
 
 std::string piecesAsSvg(const PieceMesh& mesh) {
     std::ostringstream svg;
+    svg.precision(9);
     svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << mesh.sizePx.x << "\" height=\""
         << mesh.sizePx.y << "\" viewBox=\"0 0 " << mesh.sizePx.x << " " << mesh.sizePx.y << "\">\n"
         << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"

@@ -1,7 +1,7 @@
 #include "calibration/pieces/piece_fit.h"
 
 #include "calibration/errors.h"
-#include "calibration/pieces/ownership.h"
+#include "calibration/pieces/radial_fit.h"
 #include "calibration/stopwatch.h"
 
 #include <algorithm>
@@ -15,35 +15,61 @@
 namespace curvewall {
 namespace {
 
-void certify(const RayImage& rays, FittedPieces& fitted) {
-    std::vector<int32_t> owners = ownerImage(fitted.mesh);
-    for (size_t i = 0; i < owners.size(); ++i)
-        if (!RayImage::isRay(rays.all()[i])) owners[i] = kNoPiece;
-    fitted.errorsPx = pieceErrorsPx(rays, fitted.mesh, owners);
-    fitted.certificate = certificateOf(fitted.errorsPx, owners, fitted.mesh.sizePx);
-    fitted.owners = std::make_shared<const std::vector<int32_t>>(std::move(owners));
+void certify(const Projection& projection, const std::stop_token& stop, FittedPieces& fitted) {
+    const Stopwatch certifying;
+    CertifiedPixels pixels = certifyPieces(projection, fitted.mesh, stop);
+    fitted.owners = std::make_shared<const std::vector<int32_t>>(std::move(pixels.owners));
+    fitted.errorsPx = std::move(pixels.errorsPx);
+    fitted.certificate = pixels.certificate;
     fitted.fullyCertifiedAt = std::chrono::steady_clock::now();
+    fitted.certifyMs = certifying.ms();
+}
+
+// A sparse look tells of most meshes that they will not do.
+bool isTooCoarse(const Projection& projection, const PieceMesh& mesh, double tolerancePx,
+                 const std::stop_token& stop) {
+    constexpr int kFewPixels = 8;  // rows and columns apart
+    return certifyPieces(projection, mesh, stop, kFewPixels).certificate.maxPx > tolerancePx;
 }
 
 // Pixel centres may find an error between the samples of the fit: only the certificate decides. False where
-// that is not a matter of a few more cells: the display then unrolls only as far as `unrolls` looked.
-bool fitQuadGrid(const Projection& projection, const RayImage& rays, double tolerancePx,
+// that is not a matter of a few more cells: the display then unrolls only as far as `unrolls` looked, or has
+// holes.
+bool fitQuadGrid(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
                  const std::stop_token& stop, FittedPieces& fitted) {
     constexpr int kMostRounds = 16;
-    const Stopwatch fitting;
-    QuadGridSearch search(projection, rays.sizePx(), tolerancePx, stop);
+    QuadGridSearch search(projection, sizePx, tolerancePx, stop);
     std::optional<BalancedGrid> found = search.coarsest();
-    fitted.fitMs += fitting.ms();
-    const Stopwatch certifying;
-    for (int round = 0; found && round < kMostRounds; ++round) {
+    for (int round = 0; found && round < kMostRounds; ++round, found = search.finer()) {
+        if (isTooCoarse(projection, found->pieces.mesh, tolerancePx, stop)) continue;
         fitted.mesh = std::move(found->pieces.mesh);
+        certify(projection, stop, fitted);
+        if (fitted.certificate.holes > 0) break;
+        if (fitted.certificate.maxPx > tolerancePx) continue;
         fitted.basis = basisOf(std::move(*found));
-        certify(rays, fitted);
-        if (fitted.certificate.maxPx <= tolerancePx) break;
-        found = search.finer();
+        return true;
     }
-    fitted.certifyMs = certifying.ms();
-    return found && fitted.certificate.maxPx <= tolerancePx;
+    return false;
+}
+
+// False where the display is not round, or the certificate finds what the fit does not see.
+bool fitRound(const Projection& projection, glm::ivec2 sizePx, double tolerancePx,
+              const std::stop_token& stop, FittedPieces& fitted) {
+    constexpr int kMostRounds = 4;
+    double goalPx = tolerancePx;
+    for (int round = 0; round < kMostRounds; ++round) {
+        std::optional<PieceMesh> mesh = fitRadial(projection, sizePx, goalPx, stop);
+        if (!mesh) return false;
+        fitted.mesh = std::move(*mesh);
+        certify(projection, stop, fitted);
+        if (fitted.certificate.uncoveredPixels > 0) return false;
+        if (fitted.certificate.maxPx <= tolerancePx) {
+            fitted.basis = std::make_shared<const FitBasis>();
+            return true;
+        }
+        goalPx *= 0.995 * tolerancePx / fitted.certificate.maxPx;
+    }
+    return false;
 }
 
 }  // namespace
@@ -90,21 +116,18 @@ FittedPieces fitPieces(const Projection& projection, glm::ivec2 sizePx, double t
     if (!(tolerancePx > 0 && std::isfinite(tolerancePx)))
         throw UsageError("a tolerance must be a number of pixels above 0");
     FittedPieces fitted;
-    const Stopwatch sampling;
-    const RayImage rays(projection, sizePx, stop);
-    if (std::ranges::none_of(rays.all(), RayImage::isRay))
-        throw UsageError("the display shows nothing: no pixel has a ray");
-    fitted.fitMs = sampling.ms();
-    if (!(unrolls(projection, rays) && fitQuadGrid(projection, rays, tolerancePx, stop, fitted))) {
-        const Stopwatch fitting;
+    const Stopwatch fitting;
+    if (!(unrolls(projection, sizePx) && fitQuadGrid(projection, sizePx, tolerancePx, stop, fitted)) &&
+        !fitRound(projection, sizePx, tolerancePx, stop, fitted)) {
+        const RayImage rays(projection, sizePx, stop);
+        if (std::ranges::none_of(rays.all(), PixelRays::isRay))
+            throw UsageError("the display shows nothing: no pixel has a ray");
         FittedCells fit = fitCells(rays, tolerancePx, stop);
         fitted.mesh = std::move(fit.pieces.mesh);
         fitted.basis = basisOf(std::move(fit));
-        fitted.fitMs += fitting.ms();
-        const Stopwatch certifying;
-        certify(rays, fitted);
-        fitted.certifyMs = certifying.ms();
+        certify(projection, stop, fitted);
     }
+    fitted.fitMs = fitting.ms() - fitted.certifyMs;
     fitted.vertexRays = vertexRaysOf(projection, fitted.mesh);
     return fitted;
 }

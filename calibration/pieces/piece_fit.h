@@ -14,7 +14,7 @@
 
 namespace curvewall {
 
-// What stays as long as the topology of the pieces does.
+// What stays as long as the topology of the pieces does. Nothing moves in that of a round display.
 struct FitBasis {
     Motion motion;
     std::vector<FacetSample> samples;  // piece by piece; empty for a grid

@@ -32,7 +32,8 @@ std::vector<double> bendAlong(const Projection& projection, glm::dvec2 sizePx, i
     glm::dvec2 step(0), line(0), aside(0);
     step[axis] = sizePx[axis] / kSteps;
     line[1 - axis] = sizePx[1 - axis] / (kLines - 1);
-    aside[1 - axis] = 1;
+    // A pixel is half a turn on a small display, where the way aside would be in one plane with the eye.
+    aside[1 - axis] = std::min(1.0, sizePx[1 - axis] / kSteps);
     std::vector<double> sums{0};
     for (int i = 0; i < kSteps; ++i) {
         double worst = 0;

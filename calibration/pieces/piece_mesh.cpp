@@ -11,18 +11,29 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // of the largest coordinate
 
-// Lines (n, c) on the screen with n of length one and dot(n, p) + c >= 0 inside the piece and its guard.
-std::vector<glm::dvec3> guardedScreenLines(const PieceMesh& mesh, const Piece& piece) {
-    const auto corner = [&](uint32_t i) { return mesh.vertices[piece.vertices[i % piece.vertexCount]].s; };
-    const glm::dvec2 u = corner(1) - corner(0), v = corner(2) - corner(0);
-    const double turn = u.x * v.y - u.y * v.x > 0 ? 1 : -1;
-    std::vector<glm::dvec3> lines;
-    for (uint32_t i = 0; i < piece.vertexCount; ++i) {
-        const glm::dvec2 along = glm::normalize(corner(i + 1) - corner(i)) * turn;
-        const glm::dvec2 inward(-along.y, along.x);
-        lines.emplace_back(inward, kGuardPx - glm::dot(inward, corner(i)));
+constexpr double kNoLengthPx = 1e-9;
+
+double doubleArea(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    const glm::dvec2 u = b - a, v = c - a;
+    return u.x * v.y - u.y * v.x;
+}
+
+// One side of a piece on the screen.
+struct ScreenSide {
+    glm::dvec2 from;
+    glm::dvec2 inward;  // of length one
+};
+
+std::vector<ScreenSide> screenSides(const PieceMesh& mesh, const Piece& piece) {
+    const auto [a, b, c] = widestTriangle(mesh, piece);
+    const double turn = doubleArea(a.s, b.s, c.s) > 0 ? 1 : -1;
+    std::vector<ScreenSide> sides;
+    for (const PieceEdge& edge : edgesOf(mesh, piece)) {
+        const glm::dvec2 from = mesh.vertices[piece.vertices[edge.from]].s;
+        const glm::dvec2 along = glm::normalize(mesh.vertices[piece.vertices[edge.to]].s - from) * turn;
+        sides.push_back({from, {-along.y, along.x}});
     }
-    return lines;
+    return sides;
 }
 
 }  // namespace
@@ -36,10 +47,27 @@ glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const P
            glm::inverse(glm::dmat3(a.m, b.m, c.m));
 }
 
+std::array<PieceVertex, 3> widestTriangle(const PieceMesh& mesh, const Piece& piece) {
+    const auto vertex = [&](uint32_t i) -> const PieceVertex& { return mesh.vertices[piece.vertices[i]]; };
+    std::array<uint32_t, 3> widest{0, 1, 2};
+    double largest = 0;
+    for (uint32_t i = 0; i < piece.vertexCount && piece.vertexCount > 3; ++i) {
+        for (uint32_t j = i + 1; j < piece.vertexCount; ++j) {
+            for (uint32_t k = j + 1; k < piece.vertexCount; ++k) {
+                const double area = std::abs(doubleArea(vertex(i).s, vertex(j).s, vertex(k).s));
+                if (area <= largest) continue;
+                largest = area;
+                widest = {i, j, k};
+            }
+        }
+    }
+    return {vertex(widest[0]), vertex(widest[1]), vertex(widest[2])};
+}
+
 void updateHomographies(PieceMesh& mesh) {
     for (Piece& piece : mesh.pieces) {
-        const auto vertex = [&](uint32_t i) { return mesh.vertices[piece.vertices[i]]; };
-        piece.screenFromRay = homographyThrough(vertex(0), vertex(1), vertex(2));
+        const auto [a, b, c] = widestTriangle(mesh, piece);
+        piece.screenFromRay = homographyThrough(a, b, c);
     }
 }
 
@@ -94,21 +122,36 @@ PieceMesh meshFromGrid(const PieceGrid& grid, bool quads) {
     return mesh;
 }
 
+std::vector<PieceEdge> edgesOf(const PieceMesh& mesh, const Piece& piece) {
+    std::vector<PieceEdge> edges;
+    for (uint32_t from = 0; from < piece.vertexCount; ++from) {
+        const uint32_t to = (from + 1) % piece.vertexCount;
+        if (glm::distance(mesh.vertices[piece.vertices[from]].s, mesh.vertices[piece.vertices[to]].s) >
+            kNoLengthPx)
+            edges.push_back({from, to});
+    }
+    return edges;
+}
+
 std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece) {
     // A screen line is a plane through the eye: (n, c) . H r >= 0, that is (H^T (n, c)) . r >= 0.
     std::vector<glm::dvec3> planes;
-    for (const glm::dvec3& line : guardedScreenLines(mesh, piece))
-        planes.push_back(glm::transpose(piece.screenFromRay) * line);
+    for (const ScreenSide& side : screenSides(mesh, piece))
+        planes.push_back(glm::transpose(piece.screenFromRay) *
+                         glm::dvec3(side.inward, kGuardPx - glm::dot(side.inward, side.from)));
     return planes;
 }
 
 std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece) {
-    const std::vector<glm::dvec3> lines = guardedScreenLines(mesh, piece);
+    const std::vector<ScreenSide> sides = screenSides(mesh, piece);
     const glm::dmat3 rayFromScreen = glm::inverse(piece.screenFromRay);
     std::vector<glm::dvec3> corners;
-    for (size_t i = 0; i < lines.size(); ++i) {
-        const glm::dvec3 crossing = glm::cross(lines[(i + lines.size() - 1) % lines.size()], lines[i]);
-        corners.push_back(rayFromScreen * (crossing / crossing.z));
+    for (size_t i = 0; i < sides.size(); ++i) {
+        // Where the two guarded lines cross, in a form that holds for sides in one line too.
+        const glm::dvec2 before = sides[(i + sides.size() - 1) % sides.size()].inward,
+                         after = sides[i].inward;
+        const glm::dvec2 outward = -(before + after) / (1 + glm::dot(before, after));
+        corners.push_back(rayFromScreen * glm::dvec3(sides[i].from + kGuardPx * outward, 1));
     }
     return corners;
 }

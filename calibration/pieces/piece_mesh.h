@@ -32,7 +32,8 @@ struct PieceVertex {
     glm::dvec2 s;
 };
 
-// A convex polygon, vertices in order around it. All its m are one affine map of its s, to rounding.
+// A convex polygon, vertices in order around it. All its m are one affine map of its s, to rounding. Some of
+// its vertices may lie within what is one side, where neighbours have corners, or at one place.
 struct Piece {
     std::array<uint32_t, kMostPieceEdges> vertices{};
     uint32_t vertexCount = 0;
@@ -49,6 +50,9 @@ glm::dvec2 snapToGrid(glm::dvec2 px);
 
 // H of the facet through three vertices.
 glm::dmat3 homographyThrough(const PieceVertex& a, const PieceVertex& b, const PieceVertex& c);
+
+// The three vertices of a piece that span the largest triangle on the screen, which tell its plane best.
+std::array<PieceVertex, 3> widestTriangle(const PieceMesh& mesh, const Piece& piece);
 
 // H of every piece, from its vertices.
 void updateHomographies(PieceMesh& mesh);
@@ -71,7 +75,16 @@ bool isQuadGrid(const PieceGrid& grid);
 // One piece a cell for a grid of exact quads, otherwise two triangles a cell.
 PieceMesh meshFromGrid(const PieceGrid& grid, bool quads);
 
-// Planes through the eye that bound a piece, its guard included: dot(plane, ray) >= 0 inside. One an edge.
+// An edge of a piece, as places in its list of vertices.
+struct PieceEdge {
+    uint32_t from, to;
+};
+
+// The edges that have a length, in order around the piece.
+std::vector<PieceEdge> edgesOf(const PieceMesh& mesh, const Piece& piece);
+
+// Planes through the eye that bound a piece, its guard included: dot(plane, ray) >= 0 inside. One for each of
+// edgesOf.
 std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece);
 
 // Corner rays of the region that edgePlanes bounds.

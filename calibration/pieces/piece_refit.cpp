@@ -63,7 +63,8 @@ private:
         fitted_.basis = before_.basis;
         fitted_.fullyCertifiedAt = before_.fullyCertifiedAt;
         fitted_.vertexRays = vertexRaysOf(now_, fitted_.mesh);
-        follow(fitted_.mesh, fitted_.basis->motion, before_.vertexRays, fitted_.vertexRays);
+        if (fitted_.basis->motion.unknownCount() > 0)
+            follow(fitted_.mesh, fitted_.basis->motion, before_.vertexRays, fitted_.vertexRays);
         fitted_.fitMs += fitting.ms();
     }
 

@@ -34,11 +34,10 @@ private:
         nodes_.emplace_back();
         if (pieces.size() == 1) {
             nodes_[self].piece = static_cast<int32_t>(pieces[0]);
-            const std::vector<glm::dvec3> planes = edgePlanes(mesh_, mesh_.pieces[pieces[0]]);
-            for (size_t i = 0; i < 4; ++i)
-                nodes_[self].planes[i] = glm::normalize(planes[std::min(i, planes.size() - 1)]);
+            for (const glm::dvec3& plane : edgePlanes(mesh_, mesh_.pieces[pieces[0]]))
+                nodes_[self].planes[nodes_[self].planeCount++] = glm::normalize(plane);
         } else {
-            nodes_[self].planes = boundingPlanes(pieces);
+            boundByPlanes(nodes_[self], pieces);
             const auto middle = pieces.begin() + static_cast<std::ptrdiff_t>(pieces.size() / 2);
             const int axis = longerAxis(pieces);
             std::nth_element(pieces.begin(), middle, pieces.end(), [&](uint32_t a, uint32_t b) {
@@ -68,11 +67,11 @@ private:
 
     // The box around the corners in the plane at distance one along the mean direction, as planes through the
     // eye.
-    std::array<glm::dvec3, 4> boundingPlanes(std::span<const uint32_t> pieces) const {
+    void boundByPlanes(ConeNode& node, std::span<const uint32_t> pieces) const {
         glm::dvec3 axis(0);
         for (uint32_t index : pieces)
             for (const glm::dvec3& corner : corners_[index]) axis += corner;
-        if (!(glm::length(axis) > 0)) return {};
+        if (!(glm::length(axis) > 0)) return;
         axis = glm::normalize(axis);
         const glm::dvec3 helper = std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 side = glm::normalize(glm::cross(helper, axis));
@@ -82,14 +81,15 @@ private:
         for (uint32_t index : pieces) {
             for (const glm::dvec3& corner : corners_[index]) {
                 const double ahead = glm::dot(corner, axis);
-                if (ahead < kLeastAxisCosine) return {};
+                if (ahead < kLeastAxisCosine) return;
                 const glm::dvec2 at(glm::dot(corner, side) / ahead, glm::dot(corner, up) / ahead);
                 least = glm::min(least, at);
                 most = glm::max(most, at);
             }
         }
-        return {glm::normalize(side - least.x * axis), glm::normalize(most.x * axis - side),
-                glm::normalize(up - least.y * axis), glm::normalize(most.y * axis - up)};
+        for (const glm::dvec3& plane :
+             {side - least.x * axis, most.x * axis - side, up - least.y * axis, most.y * axis - up})
+            node.planes[node.planeCount++] = glm::normalize(plane);
     }
 
     const PieceMesh& mesh_;

@@ -13,10 +13,10 @@ namespace curvewall {
 // of its points) touches nothing below it: go on at `next`. Otherwise go on with the following node; a leaf's
 // piece is touched.
 struct ConeNode {
-    std::array<glm::dvec3, 4>
-        planes{};        // through the eye, length one; zero where a node is too wide to bound
-    uint32_t next = 0;   // the node after this one's subtree
-    int32_t piece = -1;  // of a leaf
+    std::array<glm::dvec3, kMostPieceEdges> planes{};  // through the eye, length one; then zeros
+    uint32_t planeCount = 0;                           // none where a node is too wide to bound
+    uint32_t next = 0;                                 // the node after this one's subtree
+    int32_t piece = -1;                                // of a leaf
 };
 
 // Leaves are bounded by their piece's edgePlanes, inner nodes by four planes about all pieces below.

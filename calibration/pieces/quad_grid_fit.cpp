@@ -36,7 +36,8 @@ std::vector<FacetSample> latticeSamples(const Projection& projection, const Piec
         for (int i = 0; i <= kLattice; ++i) {
             for (int j = 0; j <= kLattice; ++j) {
                 const double u = double(i) / kLattice, v = double(j) / kLattice;
-                const std::array<double, 4> blend{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+                const std::array<double, kMostPieceEdges> blend{(1 - u) * (1 - v), u * (1 - v), u * v,
+                                                                (1 - u) * v};
                 glm::dvec2 px(0);
                 for (size_t c = 0; c < 4; ++c) px += blend[c] * mesh.vertices[mesh.pieces[k].vertices[c]].s;
                 if (const auto ray = projection.unproject(px)) samples.push_back({k, blend, px, *ray});
@@ -59,13 +60,12 @@ bool hasArea(const PieceGrid& grid) {
 
 }  // namespace
 
-bool unrolls(const Projection& projection, const RayImage& rays) {
-    if (!std::ranges::all_of(rays.all(), RayImage::isRay)) return false;
+bool unrolls(const Projection& projection, glm::ivec2 sizePx) {
     constexpr int kCells = 7;  // at hardly any period that a display may have
-    PieceGrid grid{rays.sizePx(), kCells, kCells, {}};
+    PieceGrid grid{sizePx, kCells, kCells, {}};
     for (int row = 0; row <= kCells; ++row) {
         for (int column = 0; column <= kCells; ++column) {
-            const glm::dvec2 px = glm::dvec2(rays.sizePx() * glm::ivec2(column, row)) / double(kCells);
+            const glm::dvec2 px = glm::dvec2(sizePx * glm::ivec2(column, row)) / double(kCells);
             const auto ray = projection.unproject(px);
             if (!ray) return false;
             grid.vertices.push_back({*ray, px});

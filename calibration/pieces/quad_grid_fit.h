@@ -3,14 +3,14 @@
 
 #include "calibration/pieces/facet_balance.h"
 #include "calibration/pieces/piece_grid.h"
-#include "calibration/pieces/ray_image.h"
 
 #include <optional>
 
 namespace curvewall {
 
-// Whether vertices on the display's surface make exact quads of every cell of a grid over it.
-bool unrolls(const Projection& projection, const RayImage& rays);
+// Whether vertices on the display's surface make exact quads of every cell of a grid over it. Only a few
+// places are looked at.
+bool unrolls(const Projection& projection, glm::ivec2 sizePx);
 
 struct BalancedGrid {
     BalancedPieces pieces;

@@ -1,14 +1,8 @@
 #pragma once
-// The ray of every pixel centre of a display: what the pieces are fitted to, certified against and compared
-// with.
+// The rays of all pixel centres of a display at once, for what looks at most of them more than once.
 
-#include "calibration/projections/projection.h"
+#include "calibration/pieces/pixel_rays.h"
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <cmath>
-#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -43,7 +37,5 @@ private:
     glm::ivec2 sizePx_;
     std::vector<glm::dvec3> rays_;
 };
-
-inline glm::dvec2 centreOf(glm::ivec2 px) { return glm::dvec2(px) + 0.5; }
 
 }  // namespace curvewall

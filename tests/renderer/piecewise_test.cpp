@@ -1,7 +1,10 @@
 #include "renderer/piecewise.h"
 
+#include "calibration/pieces/ownership.h"
+#include "calibration/pieces/piece_fit.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/polygon_meshes.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/rendering.h"
 #include "tests/support/test_scenes.h"
@@ -137,6 +140,29 @@ TEST_F(Piecewise, AClosedRoomCoversEveryPixelExactlyOnce) {
         const Frame coverage = renderer_.render(request).frame;
         const auto wrong = std::ranges::count_if(coverage.texels, [](float count) { return count != 1; });
         ASSERT_EQ(wrong, 0) << "eye and orientation " << i;
+    }
+}
+
+TEST_F(Piecewise, PolygonsOfUpToSixEdgesCoverEveryPixelOfAClosedRoomOnce) {
+    test::Random random(2);
+    const glm::ivec2 sizePx(400, 300);
+    const Wall wall = test::planarWall(sizePx, 100);
+    const auto requestWith = [&](std::shared_ptr<const FittedPieces> pieces) {
+        RenderRequest request = test::requestFor(wall, loadScene("room"), {{0.3, 0.2, -0.7}, {1, 0.3, 0.2}});
+        request.pieces = std::move(pieces);
+        return request;
+    };
+    const Frame expected = renderer_.render(requestWith(nullptr)).frame;  // one piece serves a flat display
+    for (const test::Honeycomb& honeycomb : {test::Honeycomb{4, 3, 1, 0}, {60, 45, 1, 0}}) {
+        auto pieces = std::make_shared<FittedPieces>();
+        pieces->mesh = test::honeycombOn(*wall.displays[0].projection, sizePx, honeycomb, random);
+        pieces->owners = ownerImage(pieces->mesh);
+        RenderRequest request = requestWith(pieces);
+        EXPECT_LT(compareColor(renderer_.render(request).frame, expected).shareOff, 1e-4);
+        request.output = OutputKind::coverage;
+        const RenderResult result = renderer_.render(request);
+        EXPECT_EQ(static_cast<size_t>(result.stats.pieces), pieces->mesh.pieces.size());
+        EXPECT_EQ(std::ranges::count_if(result.frame.texels, [](float count) { return count != 1; }), 0);
     }
 }
 

@@ -1,11 +1,16 @@
 #include "calibration/pieces/certificate.h"
 
 #include "calibration/pieces/ownership.h"
+#include "tests/support/random_numbers.h"
+#include "tests/support/test_projections.h"
 #include "tests/support/test_walls.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <optional>
 
 namespace curvewall {
 namespace {
@@ -33,10 +38,7 @@ TEST(Certificate, InscribedSlicesErrAsTheirSagittaSays) {
     for (int count : {32, 50, 100}) {
         const PieceMesh mesh = inscribedSlices(*wall.displays[0].projection, sizePx, count);
         ASSERT_EQ(mesh.pieces.size(), static_cast<size_t>(count)) << "slices are exact quads";
-        const std::vector<int32_t> owners = ownerImage(mesh);
-        const auto errors =
-            pieceErrorsPx(RayImage(*wall.displays[0].projection, wall.displays[0].sizePx), mesh, owners);
-        const Certificate certificate = certificateOf(errors, owners, sizePx);
+        const Certificate certificate = certifyPieces(*wall.displays[0].projection, mesh).certificate;
         EXPECT_NEAR(certificate.maxPx, 599.5 * (1 - std::cos(kPi / count)), 5e-3 * certificate.maxPx);
         EXPECT_TRUE(certificate.maxAt.y == 0 || certificate.maxAt.y == 1199);
         EXPECT_EQ(certificate.uncoveredPixels, 0);
@@ -62,10 +64,91 @@ TEST(Certificate, AFacetThatTurnsItsBackIsInfinitelyWrong) {
     const Wall wall = test::planarWall(sizePx, 90);
     PieceMesh mesh = inscribedSlices(*wall.displays[0].projection, sizePx, 1);
     for (Piece& piece : mesh.pieces) piece.screenFromRay = -piece.screenFromRay;
-    const std::vector<int32_t> owners = ownerImage(mesh);
-    const auto errors =
-        pieceErrorsPx(RayImage(*wall.displays[0].projection, wall.displays[0].sizePx), mesh, owners);
-    EXPECT_TRUE(std::isinf(certificateOf(errors, owners, sizePx).maxPx));
+    EXPECT_TRUE(std::isinf(certifyPieces(*wall.displays[0].projection, mesh).certificate.maxPx));
+}
+
+// Says which pixels it was asked for.
+class WatchedProjection : public Projection {
+public:
+    WatchedProjection(const Projection& watched, glm::ivec2 sizePx)
+        : watched_(watched), sizePx_(sizePx), asked_(static_cast<size_t>(sizePx.x * sizePx.y)) {}
+
+    std::optional<glm::dvec3> unproject(glm::dvec2 px) const override {
+        const glm::ivec2 at(glm::floor(px));
+        ++asked_.at(static_cast<size_t>(at.y * sizePx_.x + at.x));
+        return watched_.unproject(px);
+    }
+    std::vector<glm::dvec2> project(glm::dvec3) const override { return {}; }
+    ProjectionPtr seenFrom(glm::dvec3) const override { return nullptr; }
+
+    int asked(int x, int y) const { return asked_.at(static_cast<size_t>(y * sizePx_.x + x)); }
+
+private:
+    const Projection& watched_;
+    glm::ivec2 sizePx_;
+    mutable std::vector<std::atomic<int>> asked_;
+};
+
+TEST(Certificate, OverEveryNthRowAndColumnTouchesNoOtherPixel) {
+    const glm::ivec2 sizePx(61, 47);
+    const Wall wall = test::fullCylinderWall(sizePx);
+    const PieceMesh mesh = inscribedSlices(*wall.displays[0].projection, sizePx, 12);
+    const CertifiedPixels all = certifyPieces(*wall.displays[0].projection, mesh);
+    EXPECT_EQ(all.certificate.every, 1);
+    for (const int every : {1, 2, 8, 100}) {
+        const WatchedProjection watched(*wall.displays[0].projection, sizePx);
+        const CertifiedPixels some = certifyPieces(watched, mesh, {}, every);
+        EXPECT_EQ(some.certificate.every, every);
+        std::vector<int32_t> owners;
+        std::vector<float> errorsPx;
+        for (int y = 0; y < sizePx.y; ++y) {
+            for (int x = 0; x < sizePx.x; ++x) {
+                const bool isLooked = x % every == 0 && y % every == 0;
+                EXPECT_EQ(watched.asked(x, y), isLooked ? 1 : 0);
+                if (!isLooked) continue;
+                owners.push_back(all.owners[static_cast<size_t>(y * sizePx.x + x)]);
+                errorsPx.push_back(all.errorsPx[static_cast<size_t>(y * sizePx.x + x)]);
+            }
+        }
+        EXPECT_EQ(some.owners, owners);
+        EXPECT_EQ(some.errorsPx, errorsPx);
+        const glm::ivec2 at = some.certificate.maxAt;
+        EXPECT_EQ(some.certificate.maxPx, all.errorsPx[static_cast<size_t>(at.y * sizePx.x + at.x)]);
+        EXPECT_EQ(some.certificate.maxPx, *std::ranges::max_element(errorsPx));
+    }
+}
+
+TEST(Certificate, ThePercentileIsTheElementOfThatRank) {
+    test::Random random(1);
+    for (const size_t count : {1u, 2u, 100u, 101u, 5000u}) {
+        std::vector<float> errors;
+        for (size_t i = 0; i < count; ++i)
+            errors.push_back(i % 7 == 3 ? 0.25f : static_cast<float>(std::exp(random.uniform(-20, 1))));
+        const std::vector<int32_t> owners(count, 0);
+        const Certificate certificate = certificateOf(errors, owners, {static_cast<int>(count), 1});
+        std::ranges::sort(errors);
+        EXPECT_EQ(certificate.p99Px, errors[static_cast<size_t>(0.99 * static_cast<double>(count - 1))]);
+        EXPECT_EQ(certificate.maxPx, errors.back());
+    }
+}
+
+TEST(Certificate, HolesAndPixelsWithoutAPieceAreToldApart) {
+    const glm::ivec2 sizePx(16, 12);
+    const Wall wall = test::planarWall(sizePx, 90);
+    PieceMesh mesh = inscribedSlices(*wall.displays[0].projection, sizePx, 4);
+    mesh.pieces.erase(mesh.pieces.begin());
+    const RayFunctionProjection withHole([&](glm::dvec2 px) -> std::optional<glm::dvec3> {
+        if (px.x < 1 || px.x > 15) return std::nullopt;
+        return wall.displays[0].projection->unproject(px);
+    });
+    const CertifiedPixels pixels = certifyPieces(withHole, mesh);
+    EXPECT_EQ(pixels.certificate.holes, 2 * 12);
+    EXPECT_EQ(pixels.certificate.uncoveredPixels, 3 * 12);
+    EXPECT_TRUE(std::isnan(pixels.errorsPx[0]) && std::isnan(pixels.errorsPx[15]));
+    EXPECT_TRUE(std::isinf(pixels.errorsPx[1]));
+    EXPECT_EQ(pixels.owners[0], kNoPiece);
+    EXPECT_EQ(pixels.owners[15], kNoPiece);
+    EXPECT_LT(pixels.certificate.maxPx, 1e-9);
 }
 
 }  // namespace

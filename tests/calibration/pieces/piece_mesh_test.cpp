@@ -1,11 +1,15 @@
 #include "calibration/pieces/piece_mesh.h"
 
 #include "calibration/pieces/piece_fit.h"
+#include "tests/support/polygon_meshes.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/test_walls.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 
 namespace curvewall {
 namespace {
@@ -77,6 +81,93 @@ TEST(PieceMesh, EdgePlanesHoldThePieceAndItsGuardAndNoMore) {
         EXPECT_FALSE(inside({least.x - 1.01 * kGuardPx, middle.y}));
         EXPECT_FALSE(inside({most.x + 1.01 * kGuardPx, middle.y}));
         EXPECT_FALSE(inside({middle.x, least.y - 1.01 * kGuardPx}));
+    }
+}
+
+// Pieces of three to six edges, some of them with corners in one line, on a flat display.
+PieceMesh honeycomb(glm::ivec2 sizePx, uint64_t seed) {
+    test::Random random(seed);
+    const Wall wall = test::planarWall(sizePx, 100);
+    return test::honeycombOn(*wall.displays[0].projection, sizePx, {10, 8, 1, 0}, random);
+}
+
+TEST(PieceMesh, PolygonsLandEveryVertexOnItsScreenPosition) {
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+        const PieceMesh mesh = honeycomb({640, 480}, seed);
+        std::array<int, kMostPieceEdges + 1> counts{};
+        for (const Piece& piece : mesh.pieces) {
+            ++counts.at(piece.vertexCount);
+            for (uint32_t i = 0; i < piece.vertexCount; ++i) {
+                const PieceVertex& vertex = mesh.vertices[piece.vertices[i]];
+                EXPECT_LT(glm::distance(land(piece, vertex.m), vertex.s), 1e-9);
+            }
+        }
+        for (size_t edges = 3; edges <= kMostPieceEdges; ++edges) EXPECT_GT(counts.at(edges), 0) << edges;
+    }
+}
+
+TEST(PieceMesh, EdgePlanesHoldPolygonsAndTheirGuardAndNoMore) {
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+        const PieceMesh mesh = honeycomb({640, 480}, seed);
+        for (const Piece& piece : mesh.pieces) {
+            const std::vector<glm::dvec3> planes = edgePlanes(mesh, piece);
+            ASSERT_EQ(planes.size(), piece.vertexCount);
+            const glm::dmat3 rayFromScreen = glm::inverse(piece.screenFromRay);
+            const auto inside = [&](glm::dvec2 px) {
+                return std::ranges::all_of(planes, [&](const glm::dvec3& plane) {
+                    return glm::dot(plane, rayFromScreen * glm::dvec3(px, 1)) >= 0;
+                });
+            };
+            for (uint32_t i = 0; i < piece.vertexCount; ++i) {
+                const glm::dvec2 from = mesh.vertices[piece.vertices[i]].s;
+                const glm::dvec2 to = mesh.vertices[piece.vertices[(i + 1) % piece.vertexCount]].s;
+                const glm::dvec2 along = glm::normalize(to - from), outward(along.y, -along.x);
+                const glm::dvec2 middle = glm::mix(from, to, 0.5);
+                EXPECT_TRUE(inside(middle + 0.99 * kGuardPx * outward));
+                EXPECT_FALSE(inside(middle + 1.01 * kGuardPx * outward));
+            }
+        }
+    }
+}
+
+TEST(PieceMesh, GuardedCornersLieOnTheGuardOfBothTheirEdges) {
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+        const PieceMesh mesh = honeycomb({640, 480}, seed);
+        for (const Piece& piece : mesh.pieces) {
+            const std::vector<glm::dvec3> corners = guardedCorners(mesh, piece);
+            ASSERT_EQ(corners.size(), piece.vertexCount);
+            for (uint32_t i = 0; i < piece.vertexCount; ++i) {
+                const auto s = [&](uint32_t k) {
+                    return mesh.vertices[piece.vertices[k % piece.vertexCount]].s;
+                };
+                for (const uint32_t edge : {i + piece.vertexCount - 1, i}) {
+                    const glm::dvec2 along = glm::normalize(s(edge + 1) - s(edge));
+                    const glm::dvec2 off = land(piece, corners[i]) - s(edge);
+                    EXPECT_NEAR(along.y * off.x - along.x * off.y, kGuardPx, 1e-7);
+                }
+            }
+        }
+    }
+}
+
+TEST(PieceMesh, EdgesWithoutALengthBoundNothing) {
+    PieceMesh mesh = honeycomb({640, 480}, 3);
+    for (Piece& piece : mesh.pieces) {
+        if (piece.vertexCount == kMostPieceEdges) continue;
+        const std::vector<glm::dvec3> planes = edgePlanes(mesh, piece), corners = guardedCorners(mesh, piece);
+        // The last vertex once more, a rounding away.
+        PieceVertex twice = mesh.vertices[piece.vertices[piece.vertexCount - 1]];
+        twice.s.x += 1e-12;
+        piece.vertices.at(piece.vertexCount++) = static_cast<uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(twice);
+        const std::vector<glm::dvec3> same = edgePlanes(mesh, piece),
+                                      sameCorners = guardedCorners(mesh, piece);
+        ASSERT_EQ(same.size(), planes.size());
+        ASSERT_EQ(sameCorners.size(), corners.size());
+        for (size_t i = 0; i < planes.size(); ++i) {
+            EXPECT_LT(glm::distance(same[i], planes[i]), 1e-9 * glm::length(planes[i]));
+            EXPECT_LT(glm::distance(sameCorners[i], corners[i]), 1e-9 * glm::length(corners[i]));
+        }
     }
 }
 

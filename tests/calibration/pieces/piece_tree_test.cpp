@@ -1,6 +1,7 @@
 #include "calibration/pieces/piece_tree.h"
 
 #include "calibration/pieces/piece_fit.h"
+#include "tests/support/polygon_meshes.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/test_walls.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace curvewall {
 namespace {
@@ -18,7 +20,8 @@ using Triangle = std::array<glm::dvec3, 3>;
 std::set<int32_t> piecesTouched(const std::vector<ConeNode>& tree, const Triangle& triangle) {
     std::set<int32_t> pieces;
     for (uint32_t i = 0; i < tree.size();) {
-        const bool outside = std::ranges::any_of(tree[i].planes, [&](const glm::dvec3& plane) {
+        const std::span planes = std::span(tree[i].planes).first(tree[i].planeCount);
+        const bool outside = std::ranges::any_of(planes, [&](const glm::dvec3& plane) {
             return std::ranges::all_of(triangle, [&](const glm::dvec3& p) { return glm::dot(plane, p) < 0; });
         });
         if (outside) {
@@ -43,6 +46,23 @@ protected:
         fitPieces(*GetParam().displays[0].projection, GetParam().displays[0].sizePx, 0.25).mesh;
     const std::vector<ConeNode> tree_ = buildPieceTree(mesh_);
 };
+
+TEST(PieceTreeOfPolygons, FindsEveryPieceThatARayLiesInAndFewOthers) {
+    test::Random random(3);
+    const glm::ivec2 sizePx(640, 480);
+    const Wall wall = test::planarWall(sizePx, 100);
+    const PieceMesh mesh = test::honeycombOn(*wall.displays[0].projection, sizePx, {10, 8, 1, 0}, random);
+    const std::vector<ConeNode> tree = buildPieceTree(mesh);
+    size_t found = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 ray = *wall.displays[0].projection->unproject(random.pixel(sizePx));
+        const std::set<int32_t> pieces = piecesTouched(tree, {ray, ray, ray});
+        for (size_t k = 0; k < mesh.pieces.size(); ++k)
+            EXPECT_EQ(pieces.contains(static_cast<int32_t>(k)), touches(mesh, mesh.pieces[k], ray));
+        found += pieces.size();
+    }
+    EXPECT_LT(found, 2200u);
+}
 
 TEST_P(PieceTree, FindsEveryPieceThatAPointOfATriangleLiesIn) {
     test::Random random(1);
