@@ -68,7 +68,8 @@ std::vector<CertificateLattice::Failure> CertificateLattice::failures(double tol
     std::ranges::stable_sort(all, [](const Failure& a, const Failure& b) {
         return a.piece != b.piece ? a.piece < b.piece : a.errorPx > b.errorPx;
     });
-    all.erase(std::ranges::unique(all, {}, &Failure::piece).begin(), all.end());
+    const auto samePiece = [](const Failure& a, const Failure& b) { return a.piece == b.piece; };
+    all.erase(std::unique(all.begin(), all.end(), samePiece), all.end());
     return all;
 }
 

@@ -24,8 +24,6 @@ namespace {
 constexpr std::array<int, 2> kRings{0, 1};
 constexpr double kMargin = 0.98;  // for the pixels between the samples
 
-using Failures = std::vector<CertificateLattice::Failure>;
-
 // A place in a piece as a blend of its first three vertices.
 FacetSample sampleAt(const PieceMesh& mesh, uint32_t piece, glm::dvec2 px) {
     const auto corner = [&](size_t i) {
@@ -72,7 +70,7 @@ private:
         const Stopwatch certifying;
         lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, hopelessPx(), stop_);
         if (lattice_->outlineHasMoved()) {
-            takeOwners(RayImage(now_, fitted_.mesh.sizePx, stop_));
+            takeOwners();
             lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, hopelessPx(), stop_);
         }
         fitted_.certifyMs += certifying.ms();
@@ -88,11 +86,9 @@ private:
     double hopelessPx() const { return isGrid() ? tolerancePx_ : std::numeric_limits<double>::infinity(); }
     bool isGrid() const { return before_.basis->gridCounts != glm::ivec2(0); }
 
-    void takeOwners(const RayImage& rays) {
-        std::vector<int32_t> owners = ownerImage(fitted_.mesh);
-        for (size_t i = 0; i < owners.size(); ++i)
-            if (!RayImage::isRay(rays.all()[i])) owners[i] = kNoPiece;
-        fitted_.owners = std::make_shared<const std::vector<int32_t>>(std::move(owners));
+    void takeOwners() {
+        CertifiedPixels pixels = certifyPieces(now_, fitted_.mesh, stop_);
+        fitted_.owners = std::make_shared<const std::vector<int32_t>>(std::move(pixels.owners));
     }
 
     // The pieces that are off by too much somewhere, and those that have turned over on the way, which a
@@ -186,13 +182,13 @@ private:
         std::vector<uint32_t> cells;
         for (uint32_t piece : failing()) cells.push_back(fitted_.basis->cellOfPiece[piece]);
         std::ranges::sort(cells);
-        cells.erase(std::ranges::unique(cells).begin(), cells.end());
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
         const RayImage rays(now_, before_.mesh.sizePx, stop_);
         FittedCells fit = refitCells(rays, tolerancePx_, *fitted_.basis->cells, cells, stop_);
         fitted_.mesh = std::move(fit.pieces.mesh);
         fitted_.basis = basisOf(std::move(fit));
         fitted_.vertexRays = vertexRaysOf(now_, fitted_.mesh);
-        takeOwners(rays);
+        takeOwners();
         fitted_.fitMs += fitting.ms();
     }
 

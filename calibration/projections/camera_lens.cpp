@@ -72,7 +72,7 @@ PinholeLens::PinholeLens(const CameraIntrinsics& intrinsics) : intrinsics_(intri
     mostRadius_ = oneToOneRadius(terms_);
     mostDistortedRadius_ = mostDistortedRadius(terms_, mostRadius_);
     tableExtent_ = (glm::abs(intrinsics.principalPx) + 1.0) / glm::abs(intrinsics.focalPx);
-    table_.reserve(static_cast<size_t>(kTableSteps + 1) * (kTableSteps + 1));
+    table_.reserve(size_t{kTableSteps + 1} * (kTableSteps + 1));
     for (int y = 0; y <= kTableSteps; ++y)
         for (int x = 0; x <= kTableSteps; ++x) {
             const glm::dvec2 distorted = (2.0 / kTableSteps * glm::dvec2(x, y) - 1.0) * tableExtent_;
@@ -93,7 +93,7 @@ glm::dvec2 PinholeLens::startFor(glm::dvec2 distorted) const {
     if (!(at.x >= 0 && at.y >= 0 && at.x < kTableSteps && at.y < kTableSteps))
         return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
-    const glm::dvec2* above = &table_[static_cast<size_t>(y * (kTableSteps + 1) + x)];
+    const glm::dvec2* above = &table_[static_cast<size_t>(y) * (kTableSteps + 1) + static_cast<size_t>(x)];
     const glm::dvec2* below = above + kTableSteps + 1;
     const double u = at.x - x, v = at.y - y;
     const glm::dvec2 top = above[0] + u * (above[1] - above[0]),
