@@ -9,20 +9,22 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace curvewall {
 
 CertificateLattice::CertificateLattice(const Projection& projection, const PieceMesh& mesh,
-                                       const std::vector<int32_t>& owners, int every,
+                                       const std::vector<int32_t>& owners, int every, double hopelessPx,
                                        const std::stop_token& stop)
     : projection_(projection),
       every_(every),
       counts_((mesh.sizePx + every - 1) / every),
-      owners_(static_cast<size_t>(counts_.x) * static_cast<size_t>(counts_.y)),
-      errorsPx_(owners_.size()) {
+      owners_(static_cast<size_t>(counts_.x) * static_cast<size_t>(counts_.y), kNoPiece),
+      errorsPx_(owners_.size(), std::numeric_limits<float>::quiet_NaN()) {
+    std::atomic<bool> isHopeless = false;
     parallelRanges(counts_.y, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y) {
+        for (int y = begin; y < end && !isHopeless; ++y) {
             throwIfStopped(stop);
             for (int x = 0; x < counts_.x; ++x) {
                 const glm::ivec2 px = pixelOf({x, y});
@@ -30,6 +32,7 @@ CertificateLattice::CertificateLattice(const Projection& projection, const Piece
                 owners_[i] = owners[static_cast<size_t>(px.y) * static_cast<size_t>(mesh.sizePx.x) +
                                     static_cast<size_t>(px.x)];
                 errorsPx_[i] = errorAt(mesh, {x, y});
+                if (errorsPx_[i] > hopelessPx) isHopeless = true;
             }
         }
     });
@@ -56,6 +59,8 @@ void CertificateLattice::update(const PieceMesh& mesh, const std::vector<uint32_
 
 std::vector<CertificateLattice::Failure> CertificateLattice::failures(double tolerancePx) const {
     std::vector<Failure> all;
+    const auto fails = [tolerancePx](float errorPx) { return errorPx > tolerancePx; };
+    if (std::ranges::none_of(errorsPx_, fails)) return all;
     for (int y = 0; y < counts_.y; ++y)
         for (int x = 0; x < counts_.x; ++x)
             if (const size_t i = indexOf({x, y}); owners_[i] != kNoPiece && errorsPx_[i] > tolerancePx)
@@ -63,7 +68,8 @@ std::vector<CertificateLattice::Failure> CertificateLattice::failures(double tol
     std::ranges::stable_sort(all, [](const Failure& a, const Failure& b) {
         return a.piece != b.piece ? a.piece < b.piece : a.errorPx > b.errorPx;
     });
-    all.erase(std::ranges::unique(all, {}, &Failure::piece).begin(), all.end());
+    const auto samePiece = [](const Failure& a, const Failure& b) { return a.piece == b.piece; };
+    all.erase(std::unique(all.begin(), all.end(), samePiece), all.end());
     return all;
 }
 
@@ -81,12 +87,13 @@ Certificate CertificateLattice::certificate() const {
 float CertificateLattice::errorAt(const PieceMesh& mesh, glm::ivec2 node) const {
     const glm::dvec2 centre = centreOf(pixelOf(node));
     const auto ray = projection_.unproject(centre);
-    if (!ray || !(glm::dot(*ray, *ray) > 0) || !std::isfinite(glm::dot(*ray, *ray)))
+    if (!ray) return std::numeric_limits<float>::quiet_NaN();
+    if (const double square = glm::dot(*ray, *ray); !(square > 0 && std::isfinite(square)))
         return std::numeric_limits<float>::quiet_NaN();
     const int32_t owner = owners_[indexOf(node)];
     if (owner == kNoPiece) return std::numeric_limits<float>::infinity();
     const glm::dvec3 h = mesh.pieces[static_cast<size_t>(owner)].screenFromRay * *ray;
-    const double px = glm::length(glm::dvec2(h) / h.z - centre);
+    const double px = glm::length(glm::dvec2(h) * (1 / h.z) - centre);
     return h.z > 0 && std::isfinite(px) ? static_cast<float>(px) : std::numeric_limits<float>::infinity();
 }
 

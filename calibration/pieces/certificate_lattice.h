@@ -9,16 +9,19 @@
 #include <cstdint>
 #include <limits>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace curvewall {
 
 class CertificateLattice {
 public:
-    // Measures every pixel of the lattice. `owners` is of all pixels. Throws FitStopped soon after a stop is
+    // Measures every pixel of the lattice. `owners` is of all pixels. May leave out the rest soon after an
+    // error above `hopelessPx`, for meshes that nobody wants then. Throws FitStopped soon after a stop is
     // requested.
     CertificateLattice(const Projection& projection, const PieceMesh& mesh,
-                       const std::vector<int32_t>& owners, int every, const std::stop_token& stop);
+                       const std::vector<int32_t>& owners, int every, double hopelessPx,
+                       const std::stop_token& stop);
 
     // Measures those of some pieces again, after their facets have changed.
     void update(const PieceMesh& mesh, const std::vector<uint32_t>& pieces);
@@ -40,7 +43,7 @@ public:
     Certificate certificate() const;
 
     // Row by row; of every pixel of the display where it looks at each.
-    const std::vector<float>& errorsPx() const { return errorsPx_; }
+    std::vector<float> takeErrorsPx() && { return std::move(errorsPx_); }
 
 private:
     glm::ivec2 pixelOf(glm::ivec2 node) const { return node * every_; }

@@ -44,6 +44,7 @@ Eigen::MatrixX3d unknownShifts(const Shifts& shifts, const Motion& motion) {
     constexpr double kTrace = 1e-9;
     const auto count = static_cast<Eigen::Index>(motion.unknownCount());
     std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(motion.unknownCount() + 2 * shifts.size());
     Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(count, 3);
     for (int i = 0; i < count; ++i) entries.emplace_back(i, i, kTrace);
     for (size_t v = 0; v < shifts.size(); ++v) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -22,8 +23,6 @@ namespace {
 // Patches of pieces that fail are balanced with so many rings of pieces around them before cells are cut.
 constexpr std::array<int, 2> kRings{0, 1};
 constexpr double kMargin = 0.98;  // for the pixels between the samples
-
-using Failures = std::vector<CertificateLattice::Failure>;
 
 // A place in a piece as a blend of its first three vertices.
 FacetSample sampleAt(const PieceMesh& mesh, uint32_t piece, glm::dvec2 px) {
@@ -43,9 +42,8 @@ public:
     FittedPieces refit() {
         followDisplay();
         if (isCertified()) return certified();
-        if (before_.basis->gridCounts != glm::ivec2(0)) {
-            placeGridAnew();
-            if (isCertified()) return certified();
+        if (isGrid()) {
+            if (placeGridAnew()) return certified();
         } else if (before_.basis->cells && !lattice_->isEmpty()) {
             for (int rings : kRings)
                 if (canBeMended() && mend(rings)) return certified();
@@ -70,10 +68,10 @@ private:
 
     bool isCertified() {
         const Stopwatch certifying;
-        lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
+        lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, hopelessPx(), stop_);
         if (lattice_->outlineHasMoved()) {
             takeOwners();
-            lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, stop_);
+            lattice_.emplace(now_, fitted_.mesh, *fitted_.owners, every_, hopelessPx(), stop_);
         }
         fitted_.certifyMs += certifying.ms();
         return isCovered() && failing().empty();
@@ -84,9 +82,13 @@ private:
     bool isCovered() const { return !lattice_->outlineHasMoved() && !lattice_->isEmpty(); }
     bool canBeMended() const { return isCovered() && turnedOver().empty(); }
 
+    // A grid that is off anywhere is placed anew.
+    double hopelessPx() const { return isGrid() ? tolerancePx_ : std::numeric_limits<double>::infinity(); }
+    bool isGrid() const { return before_.basis->gridCounts != glm::ivec2(0); }
+
     void takeOwners() {
-        fitted_.owners =
-            std::make_shared<const std::vector<int32_t>>(certifyPieces(now_, fitted_.mesh, stop_).owners);
+        CertifiedPixels pixels = certifyPieces(now_, fitted_.mesh, stop_);
+        fitted_.owners = std::make_shared<const std::vector<int32_t>>(std::move(pixels.owners));
     }
 
     // The pieces that are off by too much somewhere, and those that have turned over on the way, which a
@@ -108,16 +110,39 @@ private:
         return pieces;
     }
 
-    // Screen positions move too, so the owners are others.
-    void placeGridAnew() {
+    // As many columns and rows where the bend asks for them now, then more. False where that is not enough.
+    bool placeGridAnew() {
+        constexpr int kMostRounds = 16;
         const Stopwatch fitting;
         const glm::ivec2 sizePx = before_.mesh.sizePx;
-        BalancedGrid grid = balancedGrid(now_, BendProfile(now_, sizePx), before_.basis->gridCounts, stop_);
+        std::optional<BalancedGrid> grid =
+            balancedGrid(now_, BendProfile(now_, sizePx), before_.basis->gridCounts, stop_);
+        fitted_.fitMs += fitting.ms();
+        if (take(std::move(*grid))) return true;
+        QuadGridSearch search(now_, sizePx, tolerancePx_, stop_);
+        grid = search.coarsest();
+        for (int round = 0; grid && round < kMostRounds; ++round) {
+            if (take(std::move(*grid))) return true;
+            grid = search.finer();
+        }
+        return false;
+    }
+
+    // Screen positions are others, so the owners are too. True where all is well; a display that does not
+    // unroll any more has no such grid.
+    bool take(BalancedGrid grid) {
+        const Stopwatch fitting;
         fitted_.mesh = std::move(grid.pieces.mesh);
+        const auto isExact = [&](const Piece& piece) {
+            const auto vertex = [&](size_t i) { return fitted_.mesh.vertices[piece.vertices[i]]; };
+            return isExactQuad(vertex(0), vertex(1), vertex(2), vertex(3));
+        };
+        if (!std::ranges::all_of(fitted_.mesh.pieces, isExact)) return false;
         fitted_.basis = basisOf(std::move(grid));
         fitted_.vertexRays = vertexRaysOf(now_, fitted_.mesh);
         fitted_.owners = std::make_shared<const std::vector<int32_t>>(ownerImage(fitted_.mesh));
         fitted_.fitMs += fitting.ms();
+        return isCertified();
     }
 
     // Balances the pieces that fail and those around them. True where none fails any more.
@@ -169,7 +194,7 @@ private:
     FittedPieces certified() {
         fitted_.certificate = lattice_->certificate();
         if (every_ == 1) {
-            fitted_.errorsPx = lattice_->errorsPx();
+            fitted_.errorsPx = std::move(*lattice_).takeErrorsPx();
             fitted_.fullyCertifiedAt = std::chrono::steady_clock::now();
         }
         return std::move(fitted_);

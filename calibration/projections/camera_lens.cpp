@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace curvewall {
 namespace {
 
 constexpr double kFarthestRadius = 1e4;    // 0.006 degrees from at right angles to the axis
 constexpr double kTolerancePx = 1e-8;      // of the inverse distortion
+constexpr int kTableSteps = 128;           // in each direction
 constexpr glm::dvec2 kFirstCentrePx(0.5);  // OpenCV counts from the centre of the first pixel
 
 using PinholeTerms = std::array<double, maths::kPinholeTerms>;
@@ -69,15 +71,47 @@ PinholeLens::PinholeLens(const CameraIntrinsics& intrinsics) : intrinsics_(intri
     untilt_ = glm::inverse(tilt_);
     mostRadius_ = oneToOneRadius(terms_);
     mostDistortedRadius_ = mostDistortedRadius(terms_, mostRadius_);
+    tableExtent_ = (glm::abs(intrinsics.principalPx) + 1.0) / glm::abs(intrinsics.focalPx);
+    table_.reserve(size_t{kTableSteps + 1} * (kTableSteps + 1));
+    for (int y = 0; y <= kTableSteps; ++y)
+        for (int x = 0; x <= kTableSteps; ++x) {
+            const glm::dvec2 distorted = (2.0 / kTableSteps * glm::dvec2(x, y) - 1.0) * tableExtent_;
+            const glm::dvec3 found =
+                maths::pinholeUndistorted(terms_.data(), distorted, mostRadius_, tolerance());
+            table_.push_back(found.z > 0 ? glm::dvec2(found)
+                                         : glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+        }
+}
+
+double PinholeLens::tolerance() const {
+    return kTolerancePx / std::max(intrinsics_.focalPx.x, intrinsics_.focalPx.y);
+}
+
+// NaN beyond the table.
+glm::dvec2 PinholeLens::startFor(glm::dvec2 distorted) const {
+    const glm::dvec2 at = (distorted / tableExtent_ + 1.0) * (0.5 * kTableSteps);
+    if (!(at.x >= 0 && at.y >= 0 && at.x < kTableSteps && at.y < kTableSteps))
+        return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+    const glm::dvec2* above = &table_[static_cast<size_t>(y) * (kTableSteps + 1) + static_cast<size_t>(x)];
+    const glm::dvec2* below = above + kTableSteps + 1;
+    const double u = at.x - x, v = at.y - y;
+    const glm::dvec2 top = above[0] + u * (above[1] - above[0]),
+                     bottom = below[0] + u * (below[1] - below[0]);
+    return top + v * (bottom - top);
 }
 
 std::optional<glm::dvec3> PinholeLens::direction(glm::dvec2 px) const {
     const glm::dvec2 sensor = (px - kFirstCentrePx - intrinsics_.principalPx) / intrinsics_.focalPx;
     const glm::dvec3 untilted = maths::pinholeTilted(untilt_, sensor);
     const glm::dvec2 distorted(untilted);
-    if (!(untilted.z > 0 && glm::length(distorted) <= mostDistortedRadius_)) return std::nullopt;
-    const double tolerance = kTolerancePx / std::max(intrinsics_.focalPx.x, intrinsics_.focalPx.y);
-    const glm::dvec3 found = maths::pinholeUndistorted(terms_.data(), distorted, mostRadius_, tolerance);
+    if (!(untilted.z > 0 && glm::dot(distorted, distorted) <= mostDistortedRadius_ * mostDistortedRadius_))
+        return std::nullopt;
+    const glm::dvec2 start = startFor(distorted);
+    const glm::dvec3 found =
+        std::isnan(start.x + start.y)
+            ? maths::pinholeUndistorted(terms_.data(), distorted, mostRadius_, tolerance())
+            : maths::pinholeUndistortedFrom(terms_.data(), distorted, start, mostRadius_, tolerance());
     if (!(found.z > 0)) return std::nullopt;
     return glm::normalize(glm::dvec3(found.x, -found.y, -1));
 }

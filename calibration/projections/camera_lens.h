@@ -31,12 +31,20 @@ public:
     double mostRadius() const { return mostRadius_; }
 
 private:
+    glm::dvec2 startFor(glm::dvec2 distorted) const;
+    double tolerance() const;
+
     std::array<double, maths::kPinholeTerms> terms_{};
     CameraIntrinsics intrinsics_;
     glm::dmat3 tilt_;
     glm::dmat3 untilt_;
     double mostRadius_;
     double mostDistortedRadius_;  // no point of the disc is distorted to beyond it
+
+    // The undistorted points of a grid over the picture, row by row, from which its inverse begins: one step
+    // of Newton's then is enough. NaN where there is none.
+    glm::dvec2 tableExtent_;
+    std::vector<glm::dvec2> table_;
 };
 
 // OpenCV's fisheye model with distortion k1 k2 k3 k4: an odd polynomial in the angle, used up to its turning

@@ -6,8 +6,9 @@ const int kPinholeTerms = 12;
 
 SHARED_FN real2 pinholeDistorted(const real k[kPinholeTerms], real2 p) {
     real r2 = dot(p, p);
-    real radial =
-        (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+    real above = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    real perBelow = 1.0 / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+    real radial = above * perBelow;
     real cross2 = 2.0 * p.x * p.y;
     return real2(p.x * radial + k[2] * cross2 + k[3] * (r2 + 2.0 * p.x * p.x) + r2 * (k[8] + r2 * k[9]),
                  p.y * radial + k[2] * (r2 + 2.0 * p.y * p.y) + k[3] * cross2 + r2 * (k[10] + r2 * k[11]));
@@ -17,16 +18,42 @@ SHARED_FN real2 pinholeDistorted(const real k[kPinholeTerms], real2 p) {
 SHARED_FN real4 pinholeJacobian(const real k[kPinholeTerms], real2 p) {
     real r2 = dot(p, p);
     real above = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-    real below = 1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
-    real radial = above / below;
+    real perBelow = 1.0 / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+    real radial = above * perBelow;
     real slope =
-        (k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]) - radial * (k[5] + r2 * (2.0 * k[6] + r2 * 3.0 * k[7]))) /
-        below;
+        (k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]) - radial * (k[5] + r2 * (2.0 * k[6] + r2 * 3.0 * k[7]))) *
+        perBelow;
     real2 prism = real2(2.0 * k[8] + 4.0 * r2 * k[9], 2.0 * k[10] + 4.0 * r2 * k[11]);
     real both = 2.0 * (p.x * p.y * slope + k[2] * p.x + k[3] * p.y);
     return real4(radial + 2.0 * p.x * p.x * slope + 2.0 * k[2] * p.y + 6.0 * k[3] * p.x + p.x * prism.x,
                  both + p.y * prism.x, both + p.x * prism.y,
                  radial + 2.0 * p.y * p.y * slope + 6.0 * k[2] * p.y + 2.0 * k[3] * p.x + p.y * prism.y);
+}
+
+// As pinholeUndistorted, beginning at a point nearer to the axis than `mostRadius`.
+SHARED_FN real3 pinholeUndistortedFrom(const real k[kPinholeTerms], real2 distorted, real2 start,
+                                       real mostRadius, real tolerance) {
+    real2 p = start;
+    real2 error = pinholeDistorted(k, p) - distorted;
+    real left = dot(error, error);
+    real most = tolerance * tolerance * max(dot(distorted, distorted), 1.0);
+    for (int i = 0; i < 100 && left > most; ++i) {
+        real4 j = pinholeJacobian(k, p);
+        real2 step = real2(j.w * error.x - j.y * error.y, j.x * error.y - j.z * error.x) *
+                     (1.0 / (j.x * j.w - j.y * j.z));
+        real2 next = p - step;
+        error = pinholeDistorted(k, next) - distorted;
+        for (int h = 0;
+             h < 50 && !(dot(next, next) < mostRadius * mostRadius && dot(error, error) < left); ++h) {
+            step = 0.5 * step;
+            next = p - step;
+            error = pinholeDistorted(k, next) - distorted;
+        }
+        if (!(dot(error, error) < left)) break;
+        p = next;
+        left = dot(error, error);
+    }
+    return real3(p, left <= most ? 1.0 : 0.0);
 }
 
 // The point nearer to the axis than `mostRadius` that distorts to `distorted`, to within `tolerance` of one
@@ -35,24 +62,7 @@ SHARED_FN real4 pinholeJacobian(const real k[kPinholeTerms], real2 p) {
 SHARED_FN real3 pinholeUndistorted(const real k[kPinholeTerms], real2 distorted, real mostRadius,
                                    real tolerance) {
     real2 p = distorted * min(0.5 * mostRadius / max(length(distorted), 1e-30), 1.0);
-    real2 error = pinholeDistorted(k, p) - distorted;
-    real most = tolerance * max(length(distorted), 1.0);
-    for (int i = 0; i < 100 && length(error) > most; ++i) {
-        real4 j = pinholeJacobian(k, p);
-        real2 step =
-            real2(j.w * error.x - j.y * error.y, j.x * error.y - j.z * error.x) / (j.x * j.w - j.y * j.z);
-        real2 next = p - step;
-        real2 nextError = pinholeDistorted(k, next) - distorted;
-        for (int h = 0; h < 50 && !(length(next) < mostRadius && length(nextError) < length(error)); ++h) {
-            step = 0.5 * step;
-            next = p - step;
-            nextError = pinholeDistorted(k, next) - distorted;
-        }
-        if (!(length(nextError) < length(error))) break;
-        p = next;
-        error = nextError;
-    }
-    return real3(p, length(error) <= most ? 1.0 : 0.0);
+    return pinholeUndistortedFrom(k, distorted, p, mostRadius, tolerance);
 }
 
 // Through a homography of the plane, as OpenCV tilts the sensor; z is positive where the answer counts.

@@ -208,6 +208,22 @@ TEST(PieceRefit, FollowsAMapThatIsAnimated) {
     EXPECT_LE(largestErrorPx(wavingPicture(1.5, 1e3), pieces), kTolerancePx + 1e-6);
 }
 
+TEST(PieceRefit, ADisplayThatBeginsOrCeasesToUnrollMeetsTheTolerance) {
+    const PinholeProjection flat({400, 300}, 300);
+    const RayFunctionProjection waving = wavingPicture(0, 1e3);
+    const ProjectionPtr round = test::fullCylinderWall({400, 300}).displays[0].projection;
+    for (const auto& [from, to] :
+         {std::pair<const Projection&, const Projection&>{flat, waving}, {waving, flat}, {*round, waving}}) {
+        const FittedPieces after =
+            refitPieces(fitPieces(from, {400, 300}, kTolerancePx), to, kTolerancePx, 1);
+        EXPECT_LE(largestErrorPx(to, after), kTolerancePx + 1e-6);
+        for (const Piece& piece : after.mesh.pieces) {
+            const auto vertex = [&](size_t i) { return after.mesh.vertices[piece.vertices[i]]; };
+            EXPECT_TRUE(piece.vertexCount == 3 || isExactQuad(vertex(0), vertex(1), vertex(2), vertex(3)));
+        }
+    }
+}
+
 TEST(PieceRefit, FollowsAnOutlineThatGrowsAndShrinks) {
     const FittedPieces before = fitPieces(wavingPicture(0, 90), {400, 300}, kTolerancePx);
     for (const double radiusPx : {91.0, 60.0, 140.0}) {
