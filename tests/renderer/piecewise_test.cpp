@@ -156,7 +156,7 @@ TEST_F(Piecewise, PolygonsOfUpToSixEdgesCoverEveryPixelOfAClosedRoomOnce) {
     for (const test::Honeycomb& honeycomb : {test::Honeycomb{4, 3, 1, 0}, {60, 45, 1, 0}}) {
         auto pieces = std::make_shared<FittedPieces>();
         pieces->mesh = test::honeycombOn(*wall.displays[0].projection, sizePx, honeycomb, random);
-        pieces->owners = ownerImage(pieces->mesh);
+        pieces->owners = std::make_shared<const std::vector<int32_t>>(ownerImage(pieces->mesh));
         RenderRequest request = requestWith(pieces);
         EXPECT_LT(compareColor(renderer_.render(request).frame, expected).shareOff, 1e-4);
         request.output = OutputKind::coverage;
