@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -57,11 +58,17 @@ public:
             const double leap =
                 std::min(kShorter * std::sqrt(row.measured.maxPx / tolerancePx), kLongestLeap);
             const int step = std::max(1, columns_ / 50);
-            columns_ = std::max(columns_ + step, static_cast<int>(leap * columns_));
+            const int next = std::max(columns_ + step, static_cast<int>(leap * columns_));
+            columns_ = std::min(next, nextOnMap());
         }
     }
 
 private:
+    int nextOnMap() const {
+        if (wall_.mapColumns == 0) return std::numeric_limits<int>::max();
+        return (columns_ / wall_.mapColumns + 1) * wall_.mapColumns;
+    }
+
     const MeasuredWall& wall_;
     double rowsPerColumn_;
     const MakeGrid& make_;
