@@ -1,5 +1,6 @@
 // How many pieces each ingredient of the method saves: for every wall and tolerance the fewest pieces with
-// which each set of ingredients keeps every pixel within the tolerance, as CSV. See docs/ingredients.md.
+// which each set of ingredients keeps every pixel within the tolerance, as CSV. Arguments name the walls to
+// look at; none means all. See docs/ingredients.md.
 
 #include "bench/ingredients/measured_wall.h"
 #include "bench/ingredients/uniform_grid.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -24,7 +26,7 @@ namespace {
 constexpr std::array<double, 8> kTolerancesPx{2, 1, 0.5, 0.25, 0.1, 0.05, 0.025, 0.01};
 
 // Fits above this take minutes.
-constexpr size_t kMostBalanced = 20'000, kMostAdaptive = 30'000;
+constexpr size_t kMostBalanced = 20'000, kMostAdaptive = 20'000;
 
 struct Row {
     glm::ivec2 cells{0};  // none where the mesh is not a grid
@@ -55,11 +57,17 @@ public:
             const double leap =
                 std::min(kShorter * std::sqrt(row.measured.maxPx / tolerancePx), kLongestLeap);
             const int step = std::max(1, columns_ / 50);
-            columns_ = std::max(columns_ + step, static_cast<int>(leap * columns_));
+            const int next = std::max(columns_ + step, static_cast<int>(leap * columns_));
+            columns_ = std::min(next, nextOnMap());
         }
     }
 
 private:
+    int nextOnMap() const {
+        if (wall_.mapColumns == 0) return std::numeric_limits<int>::max();
+        return (columns_ / wall_.mapColumns + 1) * wall_.mapColumns;
+    }
+
     const MeasuredWall& wall_;
     double rowsPerColumn_;
     const MakeGrid& make_;
@@ -167,7 +175,12 @@ std::vector<std::string> comparisons(const std::vector<MeasuredWall>& walls) {
 }  // namespace
 }  // namespace curvewall
 
-int main() {
+int main(int argc, char** argv) {
+    std::vector<curvewall::MeasuredWall> walls = curvewall::measuredWalls();
+    const std::vector<std::string> wanted(argv + 1, argv + argc);
+    std::erase_if(walls, [&](const curvewall::MeasuredWall& wall) {
+        return !wanted.empty() && std::ranges::find(wanted, wall.name) == wanted.end();
+    });
     std::cout << "wall,ingredients,tolerance_px,columns,rows,pieces,max_error_px\n";
-    for (const std::string& csv : curvewall::comparisons(curvewall::measuredWalls())) std::cout << csv;
+    for (const std::string& csv : curvewall::comparisons(walls)) std::cout << csv;
 }

@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 
 MeasuredWall measuredWall(const std::string& name, glm::ivec2 sizePx, const ProjectionPtr& projection,
                           Surface surface, std::vector<double> rowsPerColumn) {
-    return {name, projection, projection, sizePx, surface, std::move(rowsPerColumn)};
+    return {name, projection, projection, sizePx, surface, std::move(rowsPerColumn), 0};
 }
 
 MeasuredWall shippedDisplay(const std::string& name, const std::string& stem, Surface surface,
@@ -52,7 +52,9 @@ std::vector<MeasuredWall> measuredWalls() {
     walls.push_back(shippedDisplay("dome master", "dome-master", Surface::infinity, square));
     walls.back().continued = domeMasterTo(kPi);
     walls.push_back(shippedDisplay("view deformation", "view-deformation", Surface::image, square));
+    walls.back().mapColumns = 63;  // 64 nodes from border to border
     walls.push_back(shippedDisplay("measured screen", "surface-map", Surface::measured, anyShape));
+    walls.back().mapColumns = 130;  // 65 nodes in the middles of columns
     walls.push_back(projectorOnDome(anyShape));
     return walls;
 }

@@ -24,6 +24,10 @@ struct MeasuredWall {
     Surface surface;
     // Shapes of grids to choose from; 0 is one row.
     std::vector<double> rowsPerColumn;
+    // Grids of a multiple of so many columns have lines where those of the display's measured map are; 0 is a
+    // display without a map. Between such lines a map is smooth, so these grids may be better than finer
+    // ones.
+    int mapColumns = 0;
 };
 
 std::vector<MeasuredWall> measuredWalls();
