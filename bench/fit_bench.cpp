@@ -5,45 +5,22 @@
 #include "calibration/pieces/piece_tree.h"
 #include "calibration/projections/lens_projection.h"
 #include "calibration/projections/radial_lens.h"
-#include "tests/support/shipped_walls.h"
+#include "calibration/readers/wall_reader.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_walls.h"
 
 #include <benchmark/benchmark.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
+#include <fstream>
 #include <numbers>
-#include <optional>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace curvewall {
 namespace {
 
 constexpr glm::ivec2 kSizePx(1600, 1200);
-
-// A display with more pixels across the same picture.
-class Enlarged : public Projection {
-public:
-    Enlarged(ProjectionPtr shown, double times) : shown_(std::move(shown)), times_(times) {}
-
-    std::optional<glm::dvec3> unproject(glm::dvec2 px) const override {
-        return shown_->unproject(px / times_);
-    }
-    std::vector<glm::dvec2> project(glm::dvec3 ray) const override {
-        std::vector<glm::dvec2> positions = shown_->project(ray);
-        for (glm::dvec2& px : positions) px *= times_;
-        return positions;
-    }
-    ProjectionPtr seenFrom(glm::dvec3 eyeM) const override {
-        return std::make_shared<Enlarged>(shown_->seenFrom(eyeM), times_);
-    }
-
-private:
-    ProjectionPtr shown_;
-    double times_;
-};
 
 double toleranceOf(const benchmark::State& state) { return static_cast<double>(state.range(0)) / 1000; }
 
@@ -129,16 +106,23 @@ void findOwners(benchmark::State& state) {
 }
 BENCHMARK(findOwners)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
-// The dome of five projectors, each with 1920 x 1200 pixels.
+// The dome of five projectors, each with 1920 x 1200 pixels instead of 1280 x 800.
 Wall largeDome() {
-    constexpr glm::ivec2 kShippedPx(1280, 800), kLargePx(1920, 1200);
-    Wall wall = test::shippedWall("five-projector-dome");
-    for (Display& display : wall.displays) {
-        if (display.sizePx != kShippedPx) throw std::logic_error("the dome's displays have another size");
-        display.sizePx = kLargePx;
-        display.projection = std::make_shared<Enlarged>(display.projection, 1.5);
+    constexpr double kTimes = 1.5;
+    std::ifstream file(CURVEWALL_SOURCE_DIR "/configs/five-projector-dome.json");
+    nlohmann::json wall = nlohmann::json::parse(file);
+    for (nlohmann::json& display : wall["displays"]) {
+        nlohmann::json& projection = display["projection"];
+        for (size_t axis = 0; axis < 2; ++axis) {
+            display["size"][axis] = static_cast<int>(kTimes * display["size"][axis].get<int>());
+            projection["focal_px"][axis] = kTimes * projection["focal_px"][axis].get<double>();
+            // Counted from the centre of the first pixel.
+            projection["principal_px"][axis] =
+                kTimes * (projection["principal_px"][axis].get<double>() + 0.5) - 0.5;
+        }
     }
-    return wall;
+    const test::TemporaryFolder folder;
+    return readWall(folder.write("dome.json", wall.dump()));
 }
 
 // Every display of a wall after the eye has moved by a centimetre; every 8th row and column, or all of them.
