@@ -20,8 +20,7 @@
 namespace curvewall {
 namespace {
 
-constexpr double kAside = 0.02;    // of the tolerance: how far a display may be from round
-constexpr double kMargin = 0.995;  // of the tolerance, for what lies between the samples
+constexpr double kAside = 0.02;  // of the tolerance: how far a display may be from round
 // Least squares first; then the largest error is sought, closely in the end.
 constexpr int kPlainSteps = 10, kMinimaxSteps = 6, kCloseSteps = 4;
 constexpr int kLawsonSteps = 6, kCloseLawsonSteps = 10;
@@ -91,43 +90,64 @@ private:
         envelope_.cells.clear();
     }
 
-    // Samples at the site, around the cell at its corners and half way between them, and on the way there.
-    // What lies outside the display stands for the place where that ends on the way.
+    // Samples at the site, around what the cell shows, and on the way there.
     FacetCell cellOf(const RadialFacet& facet, std::vector<uint32_t> corners, int samplesOutward) const {
         FacetCell cell{std::move(corners), {}, 0};
         const glm::dmat3 points = map_.pointsOf(facet.plane), screenFromRay = glm::inverse(points);
         const glm::dvec3 axisOnScreen = screenFromRay * map_.axis();
         const auto addShown = [&](glm::dvec2 px) {
             const auto height = map_.height(px);
-            if (!height) return false;
+            if (!height) return;
             const glm::dvec3 landing = screenFromRay * map_.pointAt(px, *height);
             const double error = landing.z > 0 ? glm::distance(glm::dvec2(landing) / landing.z, px)
                                                : std::numeric_limits<double>::infinity();
             cell.errorPx = std::max(cell.errorPx, error);
             cell.samples.push_back(
                 {px, *height, glm::length(glm::dvec2(axisOnScreen) - px * axisOnScreen.z)});
-            return true;
         };
         addShown(facet.sitePx);
-        std::vector<std::pair<glm::dvec2, bool>> around;
-        for (size_t i = 0; i < cell.corners.size(); ++i) {
-            const glm::dvec2 corner = envelope_.corners[cell.corners[i]];
-            const glm::dvec2 next = envelope_.corners[cell.corners[(i + 1) % cell.corners.size()]];
-            for (const glm::dvec2 outermost : {corner, 0.5 * (corner + next)}) {
-                const bool isShown = addShown(outermost);
-                const glm::dvec2 last = isShown ? outermost : lastShown(map_, facet.sitePx, outermost);
-                if (!isShown) addShown(last);
-                for (int part = 1; part < samplesOutward; ++part)
-                    addShown(glm::mix(facet.sitePx, last, double(part) / samplesOutward));
-                around.emplace_back(outermost, isShown);
+        for (glm::dvec2 outermost : outlineOf(facet.sitePx, cell.corners))
+            for (int part = 1; part <= samplesOutward; ++part)
+                addShown(glm::mix(facet.sitePx, outermost, double(part) / samplesOutward));
+        return cell;
+    }
+
+    // Around what a cell shows: its corners, the middles between, and where the display ends.
+    std::vector<glm::dvec2> outlineOf(glm::dvec2 sitePx, const std::vector<uint32_t>& corners) const {
+        std::vector<glm::dvec2> outline, rim;
+        for (size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 from = envelope_.corners[corners[i]];
+            const glm::dvec2 to = envelope_.corners[corners[(i + 1) % corners.size()]];
+            const bool fromShown = map_.height(from).has_value(), toShown = map_.height(to).has_value();
+            if (fromShown) outline.push_back(from);
+            if (const glm::dvec2 middle = 0.5 * (from + to); map_.height(middle)) outline.push_back(middle);
+            if (fromShown != toShown)
+                rim.push_back(lastShown(map_, fromShown ? from : to, fromShown ? to : from));
+            if (!fromShown) rim.push_back(lastShown(map_, sitePx, from));
+        }
+        addBetween(sitePx, rim);
+        outline.insert(outline.end(), rim.begin(), rim.end());
+        return outline;
+    }
+
+    // Corners far outside the display leave wide angles between the places where it ends.
+    void addBetween(glm::dvec2 sitePx, std::vector<glm::dvec2>& rim) const {
+        constexpr int kParts = 4;
+        const size_t count = rim.size();
+        if (count < 2) return;
+        glm::dvec2 outward(0);
+        for (glm::dvec2 px : rim) outward += px - sitePx;
+        const auto angleOf = [&](glm::dvec2 px) {
+            const glm::dvec2 off = px - sitePx;
+            return std::atan2(outward.x * off.y - outward.y * off.x, glm::dot(outward, off));
+        };
+        std::ranges::sort(rim, {}, angleOf);
+        for (size_t i = 0; i + 1 < count; ++i) {
+            for (int part = 1; part < kParts; ++part) {
+                const glm::dvec2 chord = glm::mix(rim[i], rim[i + 1], double(part) / kParts);
+                rim.push_back(lastShown(map_, chord, chord + outward));
             }
         }
-        for (size_t i = 0; i < around.size(); ++i) {
-            const auto& [from, fromShown] = around[i];
-            const auto& [to, toShown] = around[(i + 1) % around.size()];
-            if (fromShown != toShown) addShown(lastShown(map_, fromShown ? from : to, fromShown ? to : from));
-        }
-        return cell;
     }
 
     // The plane whose largest error over the samples is smallest: least squares, made uneven by Lawson's
@@ -415,8 +435,7 @@ std::optional<PieceMesh> fitRadial(const Projection& projection, glm::ivec2 size
     }
     if (!profile) return std::nullopt;
     if (!(profile->facetCount(tolerancePx) <= kMostPieces)) refuseTolerance(tolerancePx);
-    const double goalPx = kMargin * tolerancePx;
-    const std::optional<FacetedHeight> faceted = RingSearch(*map, *profile, goalPx, stop).fewest();
+    const std::optional<FacetedHeight> faceted = RingSearch(*map, *profile, tolerancePx, stop).fewest();
     if (!faceted) return std::nullopt;
     return meshOf(*faceted);
 }
