@@ -8,7 +8,8 @@ extern "C" {
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -17,14 +18,21 @@ namespace {
 
 constexpr double kSamePx = 1e-9;
 
+struct FileClose {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
 // The triangles on the lower side of the convex hull of points (x, y, z), three each.
 std::vector<std::array<uint32_t, 3>> lowerHull(std::vector<double> points) {
+    // What fails is told below and not on stderr.
+    const std::unique_ptr<std::FILE, FileClose> silence(std::fopen("/dev/null", "w"));
+    if (!silence) throw std::runtime_error("/dev/null cannot be opened");
     // Its macros want the name qh.
     qhT state, *const qh = &state;
-    qh_zero(qh, stderr);
+    qh_zero(qh, silence.get());
     std::string options = "qhull Qt";
     const int failure = qh_new_qhull(qh, 3, static_cast<int>(points.size() / 3), points.data(), False,
-                                     options.data(), nullptr, stderr);
+                                     options.data(), nullptr, silence.get());
     std::vector<std::array<uint32_t, 3>> triangles;
     const auto collect = [&] {
         facetT* facet = nullptr;
@@ -40,9 +48,7 @@ std::vector<std::array<uint32_t, 3>> lowerHull(std::vector<double> points) {
     };
     if (failure == 0) collect();
     qh_freeqhull(qh, qh_ALL);
-    if (failure != 0)
-        throw std::runtime_error("the convex hull of " + std::to_string(points.size() / 3) +
-                                 " points failed");
+    if (failure != 0) throw std::domain_error("planes that have no hull");
     return triangles;
 }
 

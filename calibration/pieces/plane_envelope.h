@@ -39,7 +39,8 @@ struct PlaneEnvelope {
         cells;  // of each plane: corners in order, none where it is nowhere lowest
 };
 
-// The cells of the display in which each plane is the lowest. Cells that meet share their corners.
+// The cells of the display in which each plane is the lowest. Cells that meet share their corners. Throws
+// std::domain_error for planes that are too many sizes apart to be compared.
 PlaneEnvelope lowestPlanes(const std::vector<HeightPlane>& planes, glm::ivec2 sizePx);
 
 }  // namespace curvewall

@@ -16,6 +16,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <stdexcept>
 
 namespace curvewall {
 namespace {
@@ -166,7 +167,9 @@ private:
                 normal += weights[i] * row * row.transpose();
                 right += weights[i] * cell.samples[i].height * row;
             }
-            const Eigen::Vector3d plane = normal.llt().solve(right);
+            const Eigen::LLT<Eigen::Matrix3d> factors(normal);
+            if (factors.info() != Eigen::Success) return;
+            const Eigen::Vector3d plane = factors.solve(right);
             if (!plane.allFinite()) return;
             best = {plane[0], plane[1], plane[2]};
             double sum = 0;
@@ -435,9 +438,12 @@ std::optional<PieceMesh> fitRadial(const Projection& projection, glm::ivec2 size
     }
     if (!profile) return std::nullopt;
     if (!(profile->facetCount(tolerancePx) <= kMostPieces)) refuseTolerance(tolerancePx);
-    const std::optional<FacetedHeight> faceted = RingSearch(*map, *profile, tolerancePx, stop).fewest();
-    if (!faceted) return std::nullopt;
-    return meshOf(*faceted);
+    try {
+        const auto faceted = RingSearch(*map, *profile, tolerancePx, stop).fewest();
+        return faceted ? std::optional(meshOf(*faceted)) : std::nullopt;
+    } catch (const std::domain_error&) {
+        return std::nullopt;  // a display so full of holes that its facets do not hold on to it
+    }
 }
 
 }  // namespace curvewall
