@@ -17,6 +17,7 @@ namespace curvewall {
 namespace {
 
 constexpr double kSamePx = 1e-9;
+constexpr double kSquarePx = 1e-6;  // by which places are found again
 
 struct FileClose {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -99,17 +100,19 @@ uint64_t keyOf(glm::i64vec2 square) {
 }  // namespace
 
 uint32_t PlacesPx::numberOf(glm::dvec2 px) {
-    const glm::i64vec2 square(glm::floor(px / (4 * kSamePx)));
-    for (int64_t dy = -1; dy <= 1; ++dy) {
-        for (int64_t dx = -1; dx <= 1; ++dx) {
-            const auto [begin, end] = numbers_.equal_range(keyOf(square + glm::i64vec2(dx, dy)));
+    // Nearly always one square.
+    const glm::i64vec2 first(glm::floor((px - kSamePx) / kSquarePx)),
+        last(glm::floor((px + kSamePx) / kSquarePx));
+    for (int64_t y = first.y; y <= last.y; ++y) {
+        for (int64_t x = first.x; x <= last.x; ++x) {
+            const auto [begin, end] = numbers_.equal_range(keyOf({x, y}));
             for (auto it = begin; it != end; ++it)
                 if (glm::distance(places_[it->second], px) <= kSamePx) return it->second;
         }
     }
     const auto number = static_cast<uint32_t>(places_.size());
     places_.push_back(px);
-    numbers_.emplace(keyOf(square), number);
+    numbers_.emplace(keyOf(glm::i64vec2(glm::floor(px / kSquarePx))), number);
     return number;
 }
 

@@ -197,21 +197,25 @@ private:
     static double shiftToEvenError(glm::dvec2 sitePx, std::span<const HeightSample> samples,
                                    glm::dvec3 plane) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
+        std::vector<glm::dvec2> errors;  // without a shift, and what a unit of shift adds
         for (const HeightSample& sample : samples) {
-            if (!(sample.pxPerHeight > 0)) continue;
-            const double off = -errorOf(sample, sitePx, plane) / sample.pxPerHeight;
-            low = std::min(low, off);
-            high = std::max(high, off);
+            const glm::dvec2 error(errorOf(sample, sitePx, plane), sample.pxPerHeight);
+            errors.push_back(error);
+            if (!(error.y > 0)) continue;
+            low = std::min(low, -error.x / error.y);
+            high = std::max(high, -error.x / error.y);
         }
         const auto largest = [&](double shift) {
             double most = 0;
-            for (const HeightSample& sample : samples)
-                most = std::max(most, std::abs(errorOf(sample, sitePx, plane) + shift * sample.pxPerHeight));
+            for (glm::dvec2 error : errors) most = std::max(most, std::abs(error.x + shift * error.y));
             return most;
         };
-        for (int third = 0; third < 20; ++third) {
+        for (int step = 0; step < 20; ++step) {
             const double a = low + 0.4 * (high - low), b = low + 0.6 * (high - low);
-            (largest(a) < largest(b) ? high : low) = largest(a) < largest(b) ? b : a;
+            if (largest(a) < largest(b))
+                high = b;
+            else
+                low = a;
         }
         return std::isfinite(low + high) ? 0.5 * (low + high) : 0;
     }
