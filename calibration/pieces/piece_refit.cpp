@@ -182,7 +182,7 @@ private:
         std::vector<uint32_t> cells;
         for (uint32_t piece : failing()) cells.push_back(fitted_.basis->cellOfPiece[piece]);
         std::ranges::sort(cells);
-        cells.erase(std::ranges::unique(cells).begin(), cells.end());
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
         FittedCells fit = refitCells(now_, tolerancePx_, *fitted_.basis->cells, cells, stop_);
         fitted_.mesh = std::move(fit.pieces.mesh);
         fitted_.owners = std::make_shared<const std::vector<int32_t>>(std::move(fit.pixels.owners));
