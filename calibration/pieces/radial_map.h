@@ -36,8 +36,7 @@ public:
     // The same display with heights of the other sign.
     RadialMap turnedOver() const;
 
-    // Place on the flat screen, with the centre at the origin, and back.
-    glm::dvec2 flatAt(glm::dvec2 px) const { return flatFromPx_ * (px - centrePx_); }
+    // A place of the screen from one on the flat screen, which has the centre at its origin.
     glm::dvec2 pxAt(glm::dvec2 flat) const { return centrePx_ + glm::inverse(flatFromPx_) * flat; }
     const glm::dmat2& flatFromPx() const { return flatFromPx_; }
 
