@@ -30,11 +30,19 @@ struct Texture {
     std::vector<MipLevel> levels;  // full chain, level 0 first
 };
 
+// How a surface mixes with what lies behind it.
+enum class Blending {
+    none,      // it hides it
+    alpha,     // color * alpha + behind * (1 - alpha)
+    additive,  // color * alpha + behind
+};
+
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1};   // linear light, multiplies the texture
-    int texture = -1;         // index into Scene::textures, or -1
-    float alphaCutoff = -1;   // fragments with less alpha are discarded; negative: opaque
+    glm::vec4 baseColor{1};  // linear light, multiplies the texture
+    int texture = -1;        // index into Scene::textures, or -1
+    float alphaCutoff = -1;  // fragments with less alpha are discarded; negative: none are
+    Blending blending = Blending::none;
     bool doubleSided = true;  // otherwise triangles seen from behind are not drawn
     bool unlit = false;       // KHR_materials_unlit
 };
