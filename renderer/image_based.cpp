@@ -45,7 +45,7 @@ ImageBasedRenderer::ImageBasedRenderer(const GpuScene& scene, const std::vector<
         if (!faces[static_cast<size_t>(i)]) continue;
         Face& face = faces_.emplace_back();
         face.pieces = uploadPieces(cubeFaceMesh(i, faceSizePx, distanceM));
-        face.renderer = std::make_unique<PiecewiseRenderer>(scene, face.pieces, nullptr, look, nullptr);
+        face.renderer = std::make_unique<PiecewiseRenderer>(scene, face.pieces, nullptr, look);
         face.framebuffer = makeFramebuffer();
         glNamedFramebufferTextureLayer(face.framebuffer.id(), GL_COLOR_ATTACHMENT0, cube_.id(), 0, i);
         glNamedFramebufferRenderbuffer(face.framebuffer.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,

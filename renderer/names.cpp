@@ -14,6 +14,10 @@ struct Named {
 
 constexpr Named<Method> kMethods[] = {
     {Method::piecewise, "piecewise"}, {Method::imageBased, "image-based"}, {Method::reference, "reference"}};
+constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
+                                      {Engine::geometry, "geometry"},
+                                      {Engine::tessellation, "tessellation"},
+                                      {Engine::loop, "loop"}};
 constexpr Named<Style> kStyles[] = {{Style::textured, "textured"}, {Style::unlit, "unlit"}};
 constexpr Named<OutputKind> kOutputKinds[] = {{OutputKind::color, "color"},
                                               {OutputKind::depth, "depth"},
@@ -50,6 +54,7 @@ std::string allNames(const Named<Enum> (&table)[count]) {
 }  // namespace
 
 std::optional<Method> methodFromName(std::string_view name) { return fromName(kMethods, name); }
+std::optional<Engine> engineFromName(std::string_view name) { return fromName(kEngines, name); }
 std::optional<Style> styleFromName(std::string_view name) { return fromName(kStyles, name); }
 std::optional<OutputKind> outputKindFromName(std::string_view name) { return fromName(kOutputKinds, name); }
 std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
@@ -57,11 +62,13 @@ std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
 }
 
 std::string_view nameOf(Method method) { return toName(kMethods, method); }
+std::string_view nameOf(Engine engine) { return toName(kEngines, engine); }
 std::string_view nameOf(Style style) { return toName(kStyles, style); }
 std::string_view nameOf(OutputKind output) { return toName(kOutputKinds, output); }
 std::string_view nameOf(ImageFormat format) { return toName(kImageFormats, format); }
 
 std::string methodNames() { return allNames(kMethods); }
+std::string engineNames() { return allNames(kEngines); }
 std::string styleNames() { return allNames(kStyles); }
 std::string outputKindNames() { return allNames(kOutputKinds); }
 std::string imageFormatNames() { return allNames(kImageFormats); }
