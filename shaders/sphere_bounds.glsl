@@ -1,5 +1,5 @@
 // Where a sphere lies on a flat screen, after Mara and McGuire, "2D Polyhedral Bounds of a Clipped,
-// Perspective- Projected 3D Sphere" (JCGT 2013). The eye is the origin, the screen has the unit normal
+// Perspective-Projected 3D Sphere" (JCGT 2013). The eye is the origin, the screen has the unit normal
 // `ahead`, and only what is further ahead than `near` (0 or more) is seen. A place on the screen is (right .
 // p, down . p) / (ahead . p). Legal GLSL and legal C++ under GLM; C++ includes it through
 // renderer/sphere_bounds.h.
