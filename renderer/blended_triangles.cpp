@@ -1,5 +1,7 @@
 #include "renderer/blended_triangles.h"
 
+#include "renderer/meshlets.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -57,7 +59,7 @@ void BlendedTriangles::upload() {
         if (chunk_.ranges.empty() || chunk_.ranges.back().material != triangle.material)
             chunk_.ranges.push_back({triangle.material, at, 0, static_cast<uint32_t>(meshlets_.size()), 0});
         ChunkRange& range = chunk_.ranges.back();
-        if (range.triangleCount % kMostMeshletTriangles == 0) {
+        if (range.triangleCount % kMeshletTriangles == 0) {
             // What lies at one distance all around the eye is bounded by no sphere that would help.
             GpuMeshlet& meshlet = meshlets_.emplace_back();
             meshlet.sphere.w = std::numeric_limits<float>::max();

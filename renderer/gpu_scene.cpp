@@ -2,8 +2,7 @@
 
 #include "calibration/errors.h"
 #include "renderer/blended_triangles.h"
-
-#include <glm/geometric.hpp>
+#include "renderer/meshlets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +22,18 @@ uint32_t packNormal(glm::vec3 normal) {
         bits |= (static_cast<uint32_t>(part) & 0x3ffu) << (10 * i);
     }
     return bits;
+}
+
+GpuMeshlet gpuMeshlet(const Meshlet& meshlet, uint32_t firstTriangle, bool isSingleSided) {
+    GpuMeshlet gpu;
+    gpu.sphere = glm::vec4(meshlet.centreM, meshlet.radiusM);
+    gpu.cone = glm::vec4(meshlet.coneAxis, meshlet.coneReachM);
+    gpu.firstTriangle = firstTriangle + meshlet.firstTriangle;
+    gpu.triangleCount = meshlet.triangleCount;
+    gpu.isSingleSided = isSingleSided ? 1 : 0;
+    gpu.coneSine = meshlet.coneSine;
+    gpu.coneCosine = meshlet.coneCosine;
+    return gpu;
 }
 
 // Collects a chunk's triangles and renumbers their vertices.
@@ -56,7 +67,7 @@ public:
     }
 
     SceneChunk upload() {
-        const std::vector<GpuMeshlet> meshlets = cutIntoMeshlets();
+        const std::vector<GpuMeshlet> meshlets = orderByMeshlets();
         SceneChunk chunk = uploadVertices();
         chunk.corners = makeBuffer(std::span<const glm::uvec3>(triangles_));
         chunk.meshlets = makeBuffer(std::span<const GpuMeshlet>(meshlets));
@@ -88,24 +99,23 @@ public:
     }
 
 private:
-    std::vector<GpuMeshlet> cutIntoMeshlets() {
+    // Brings the triangles into the order of their meshlets.
+    std::vector<GpuMeshlet> orderByMeshlets() {
+        std::vector<glm::vec3> positions;
+        for (uint32_t vertex : vertices_) positions.push_back(scene_.positions[vertex]);
         std::vector<GpuMeshlet> meshlets;
         for (ChunkRange& range : ranges_) {
+            const std::vector<glm::uvec3> before(
+                triangles_.begin() + range.firstTriangle,
+                triangles_.begin() + range.firstTriangle + range.triangleCount);
+            const Meshlets cut = cutIntoMeshlets(positions, before);
+            for (uint32_t i = 0; i < range.triangleCount; ++i)
+                triangles_[range.firstTriangle + i] = before[cut.order[i]];
             range.firstMeshlet = static_cast<uint32_t>(meshlets.size());
-            for (uint32_t i = 0; i < range.triangleCount; i += kMostMeshletTriangles) {
-                GpuMeshlet& m = meshlets.emplace_back();
-                m.firstTriangle = range.firstTriangle + i;
-                m.triangleCount = std::min(kMostMeshletTriangles, range.triangleCount - i);
-                m.isSingleSided = scene_.materials[range.material].doubleSided ? 0 : 1;
-                glm::vec3 lo(1e30f), hi(-1e30f);
-                for (uint32_t t = 0; t < m.triangleCount; ++t)
-                    for (int k = 0; k < 3; ++k) {
-                        lo = glm::min(lo, scene_.positions[vertices_[triangles_[m.firstTriangle + t][k]]]);
-                        hi = glm::max(hi, scene_.positions[vertices_[triangles_[m.firstTriangle + t][k]]]);
-                    }
-                m.sphere = glm::vec4((lo + hi) * 0.5f, glm::length(hi - lo) * 0.5001f);
-            }
-            range.meshletCount = static_cast<uint32_t>(meshlets.size()) - range.firstMeshlet;
+            range.meshletCount = static_cast<uint32_t>(cut.meshlets.size());
+            const bool isSingleSided = !scene_.materials[range.material].doubleSided;
+            for (const Meshlet& meshlet : cut.meshlets)
+                meshlets.push_back(gpuMeshlet(meshlet, range.firstTriangle, isSingleSided));
         }
         return meshlets;
     }

@@ -7,11 +7,11 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <vector>
 
 namespace curvewall {
-
-inline constexpr uint32_t kMostMeshletTriangles = 64;
 
 // A run of a chunk's triangles that share a material, in whole meshlets.
 struct ChunkRange {
@@ -20,14 +20,16 @@ struct ChunkRange {
     uint32_t firstMeshlet = 0, meshletCount = 0;
 };
 
-// As shaders/meshlet.glsl reads it.
+// As shaders/meshlet.glsl reads it; see Meshlet.
 struct GpuMeshlet {
-    glm::vec4 sphere{0};         // centre relative to the scene's origin, radius
-    glm::vec4 cone{0, 0, 1, 2};  // axis and cutoff of the normals; a cutoff above 1 tells nothing
+    glm::vec4 sphere{0};  // centre relative to the scene's origin, radius
+    glm::vec4 cone{0, 0, 1, std::numeric_limits<float>::max()};  // axis and reach
     uint32_t firstTriangle = 0;
     uint32_t triangleCount = 0;
     uint32_t isSingleSided = 0;
-    uint32_t reserved = 0;
+    float coneSine = 0;
+    float coneCosine = 1;
+    uint32_t reserved[3]{};
 };
 
 // A part of a scene whose buffers stay below the smallest storage block limit in use (128 MB on llvmpipe).
