@@ -1,5 +1,7 @@
 #include "renderer/meshlets.h"
 
+#include "calibration/parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,7 +66,8 @@ public:
 
 private:
     std::array<uint32_t, 3> cornersOf(uint32_t triangle) const {
-        return {corners_[3 * triangle], corners_[3 * triangle + 1], corners_[3 * triangle + 2]};
+        const size_t first = size_t{3} * triangle;
+        return {corners_[first], corners_[first + 1], corners_[first + 2]};
     }
 
     std::span<const uint32_t> corners_;
@@ -99,31 +102,38 @@ std::vector<std::vector<uint32_t>> clustersOf(const WeldedTriangles& welded, siz
     return clusters;
 }
 
-double farthest(std::span<const glm::dvec3> points, glm::dvec3 from) {
-    double most = 0;
-    for (const glm::dvec3& point : points) most = std::max(most, glm::distance(point, from));
-    return most;
+glm::dvec3 farthestFrom(glm::dvec3 place, std::span<const glm::dvec3> points) {
+    glm::dvec3 farthest = points.front();
+    double most = -1;
+    for (const glm::dvec3& point : points) {
+        const glm::dvec3 off = point - place;
+        const double squared = glm::dot(off, off);
+        if (squared <= most) continue;
+        most = squared;
+        farthest = point;
+    }
+    return farthest;
 }
 
 // The centre of nearly the smallest ball: from the middle of the box, smaller and smaller steps to what is
 // farthest (Badoiu and Clarkson, 2003).
 glm::dvec3 ballCentre(std::span<const glm::dvec3> points) {
-    constexpr int kSteps = 32;
+    constexpr int kSteps = 16;
     glm::dvec3 least = points.front(), most = points.front();
     for (const glm::dvec3& point : points) {
         least = glm::min(least, point);
         most = glm::max(most, point);
     }
     glm::dvec3 centre = 0.5 * (least + most), best = centre;
-    double bestRadius = farthest(points, centre);
-    for (int i = 0; i < kSteps; ++i) {
-        const glm::dvec3 far = *std::ranges::max_element(
-            points, {}, [&](const glm::dvec3& point) { return glm::distance(point, centre); });
-        centre += (far - centre) / (i + 2.0);
-        const double radius = farthest(points, centre);
-        if (radius >= bestRadius) continue;
-        best = centre;
-        bestRadius = radius;
+    double bestRadius = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kSteps; ++i) {
+        const glm::dvec3 farthest = farthestFrom(centre, points);
+        const double radius = glm::distance(centre, farthest);
+        if (radius < bestRadius) {
+            best = centre;
+            bestRadius = radius;
+        }
+        centre += (farthest - centre) / (i + 2.0);
     }
     return best;
 }
@@ -142,7 +152,7 @@ Faces facesOf(const WeldedTriangles& welded, std::span<const uint32_t> triangles
     Faces faces;
     for (const uint32_t triangle : triangles) {
         std::array<glm::dvec3, 3> p;
-        for (size_t i = 0; i < 3; ++i) p[i] = welded.positions[welded.corners[3 * triangle + i]];
+        for (size_t i = 0; i < 3; ++i) p[i] = welded.positions[welded.corners[size_t{3} * triangle + i]];
         const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
         faces.points.insert(faces.points.end(), p.begin(), p.end());
         // One without area is seen from nowhere.
@@ -173,7 +183,8 @@ Meshlet boundsOf(const WeldedTriangles& welded, std::span<const uint32_t> triang
     const Faces faces = facesOf(welded, triangles);
     Meshlet meshlet;
     meshlet.centreM = glm::vec3(ballCentre(faces.points));
-    meshlet.radiusM = roundedUp(farthest(faces.points, meshlet.centreM));
+    const glm::dvec3 centre(meshlet.centreM);
+    meshlet.radiusM = roundedUp(glm::distance(centre, farthestFrom(centre, faces.points)));
     setCone(meshlet, faces);
     return meshlet;
 }
@@ -185,12 +196,17 @@ Meshlets cutIntoMeshlets(std::span<const glm::vec3> positions, std::span<const g
     Meshlets cut;
     if (triangles.empty()) return cut;
     const WeldedTriangles welded = weld(positions, triangles);
+    const std::vector<std::vector<uint32_t>> clusters = clustersOf(welded, mostTriangles);
     cut.order.reserve(triangles.size());
-    for (const std::vector<uint32_t>& cluster : clustersOf(welded, mostTriangles)) {
-        Meshlet& meshlet = cut.meshlets.emplace_back(boundsOf(welded, cluster));
-        meshlet.firstTriangle = static_cast<uint32_t>(cut.order.size());
-        meshlet.triangleCount = static_cast<uint32_t>(cluster.size());
-        cut.order.insert(cut.order.end(), cluster.begin(), cluster.end());
+    cut.meshlets.resize(clusters.size());
+    parallelRanges(static_cast<int>(clusters.size()), [&](int begin, int end) {
+        for (auto i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i)
+            cut.meshlets[i] = boundsOf(welded, clusters[i]);
+    });
+    for (size_t i = 0; i < clusters.size(); ++i) {
+        cut.meshlets[i].firstTriangle = static_cast<uint32_t>(cut.order.size());
+        cut.meshlets[i].triangleCount = static_cast<uint32_t>(clusters[i].size());
+        cut.order.insert(cut.order.end(), clusters[i].begin(), clusters[i].end());
     }
     return cut;
 }

@@ -44,10 +44,11 @@ ExactPairs bruteForce(const Scene& scene, const PieceMesh& mesh, const Camera& c
     ExactPairs found;
     for (const MaterialRange& range : scene.ranges) {
         for (uint32_t i = range.firstTriangle; i < range.firstTriangle + range.triangleCount; ++i) {
-            std::vector<glm::dvec3> corners;
-            for (int k = 0; k < 3; ++k)
-                corners.push_back(glm::inverse(sceneFromWall) *
-                                  (scene.originM + glm::dvec3(scene.positions[scene.triangles[i][k]]) - eye));
+            const auto corner = [&](int k) {
+                const glm::dvec3 place(scene.positions[scene.triangles[i][k]]);
+                return glm::inverse(sceneFromWall) * (scene.originM + place - eye);
+            };
+            const std::vector<glm::dvec3> corners{corner(0), corner(1), corner(2)};
             const double volume = glm::determinant(glm::dmat3(corners[0], corners[1], corners[2]));
             if (volume > 0 && !scene.materials[range.material].doubleSided) continue;
             uint64_t pieces = 0;

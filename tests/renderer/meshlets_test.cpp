@@ -53,11 +53,13 @@ Scene confetti(size_t triangles, test::Random& random) {
 Scene roughPlate(int cells, test::Random& random) {
     Scene scene;
     startMaterial(scene, plainMaterial(glm::vec3(1)));
-    std::vector<float> heights(static_cast<size_t>((cells + 1) * (cells + 1)));
+    const auto side = static_cast<size_t>(cells) + 1;
+    std::vector<float> heights(side * side);
     for (float& height : heights) height = static_cast<float>(random.uniform(0, 0.4));
     const auto point = [&](int x, int y) {
-        return glm::vec3(
-            x, y, heights[static_cast<size_t>(y * (cells + 1) + x)] - 0.01f * static_cast<float>(x * x));
+        return glm::vec3(x, y,
+                         heights[static_cast<size_t>(y) * side + static_cast<size_t>(x)] -
+                             0.01f * static_cast<float>(x * x));
     };
     for (int y = 0; y < cells; ++y)
         for (int x = 0; x < cells; ++x)
