@@ -57,7 +57,8 @@ void BlendedTriangles::upload() {
         const auto at = static_cast<uint32_t>(corners_.size());
         corners_.push_back(triangle.corners);
         if (chunk_.ranges.empty() || chunk_.ranges.back().material != triangle.material)
-            chunk_.ranges.push_back({triangle.material, at, 0, static_cast<uint32_t>(meshlets_.size()), 0});
+            chunk_.ranges.push_back({triangle.material, at, 0, static_cast<uint32_t>(meshlets_.size()), 0,
+                                     triangle.isSingleSided});
         ChunkRange& range = chunk_.ranges.back();
         if (range.triangleCount % kMeshletTriangles == 0) {
             // What lies at one distance all around the eye is bounded by no sphere that would help.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -24,11 +25,11 @@ uint32_t packNormal(glm::vec3 normal) {
     return bits;
 }
 
-GpuMeshlet gpuMeshlet(const Meshlet& meshlet, uint32_t firstTriangle, bool isSingleSided) {
+GpuMeshlet gpuMeshlet(const Meshlet& meshlet, bool isSingleSided) {
     GpuMeshlet gpu;
     gpu.sphere = glm::vec4(meshlet.centreM, meshlet.radiusM);
     gpu.cone = glm::vec4(meshlet.coneAxis, meshlet.coneReachM);
-    gpu.firstTriangle = firstTriangle + meshlet.firstTriangle;
+    gpu.firstTriangle = meshlet.firstTriangle;
     gpu.triangleCount = meshlet.triangleCount;
     gpu.isSingleSided = isSingleSided ? 1 : 0;
     gpu.coneSine = meshlet.coneSine;
@@ -47,8 +48,10 @@ public:
     bool isEmpty() const { return triangles_.empty(); }
 
     void add(glm::uvec3 triangle, uint32_t material) {
-        if (ranges_.empty() || ranges_.back().material != material)
-            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0, 0, 0});
+        if (ranges_.empty() || ranges_.back().material != material) {
+            const bool isSingleSided = !scene_.materials[material].doubleSided;
+            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0, 0, 0, isSingleSided});
+        }
         ++ranges_.back().triangleCount;
         triangles_.push_back(localCorners(triangle));
     }
@@ -74,9 +77,9 @@ public:
         chunk.vertexArray = vertexArrayOver(chunk);
         chunk.triangleCount = static_cast<uint32_t>(triangles_.size());
         chunk.meshletCount = static_cast<uint32_t>(meshlets.size());
-        chunk.ranges = std::move(ranges_);
+        chunk.ranges = std::exchange(ranges_, {});
+        chunk.meshletBounds = std::exchange(meshlets_, {});
         triangles_.clear();
-        ranges_.clear();
         return chunk;
     }
 
@@ -113,9 +116,11 @@ private:
                 triangles_[range.firstTriangle + i] = before[cut.order[i]];
             range.firstMeshlet = static_cast<uint32_t>(meshlets.size());
             range.meshletCount = static_cast<uint32_t>(cut.meshlets.size());
-            const bool isSingleSided = !scene_.materials[range.material].doubleSided;
-            for (const Meshlet& meshlet : cut.meshlets)
-                meshlets.push_back(gpuMeshlet(meshlet, range.firstTriangle, isSingleSided));
+            for (Meshlet meshlet : cut.meshlets) {
+                meshlet.firstTriangle += range.firstTriangle;
+                meshlets_.push_back(meshlet);
+                meshlets.push_back(gpuMeshlet(meshlet, range.isSingleSided));
+            }
         }
         return meshlets;
     }
@@ -125,6 +130,7 @@ private:
     std::vector<uint32_t> vertices_;  // chunk vertex -> scene vertex
     std::vector<glm::uvec3> triangles_;
     std::vector<ChunkRange> ranges_;
+    std::vector<Meshlet> meshlets_;
 };
 
 std::vector<SceneChunk> uploadChunks(const Scene& scene) {

@@ -2,6 +2,7 @@
 // A scene in GPU memory.
 
 #include "renderer/gl/gl_objects.h"
+#include "renderer/meshlets.h"
 #include "renderer/scene/scene.h"
 
 #include <glm/vec4.hpp>
@@ -18,6 +19,7 @@ struct ChunkRange {
     uint32_t material = 0;
     uint32_t firstTriangle = 0, triangleCount = 0;
     uint32_t firstMeshlet = 0, meshletCount = 0;
+    bool isSingleSided = false;
 };
 
 // As shaders/meshlet.glsl reads it; see Meshlet.
@@ -43,7 +45,8 @@ struct SceneChunk {
     uint32_t triangleCount = 0;
     uint32_t meshletCount = 0;
     std::vector<ChunkRange> ranges;
-    bool changes = false;  // ranges and meshlets are other ones in every frame
+    std::vector<Meshlet> meshletBounds;  // for the CPU; none of a chunk that changes
+    bool changes = false;                // ranges and meshlets are other ones in every frame
 };
 
 // Positions, normals and uvs as vertex attributes 0 to 2, corners as indices.
