@@ -5,15 +5,14 @@
 #include "calibration/stopwatch.h"
 #include "renderer/blended_target.h"
 #include "renderer/blending.h"
-#include "renderer/cube_faces.h"
 #include "renderer/gl/egl_context.h"
-#include "renderer/image_based.h"
+#include "renderer/names.h"
 #include "renderer/piecewise.h"
+#include "renderer/prepared_images.h"
 #include "renderer/recently_used.h"
 #include "renderer/reference.h"
 #include "renderer/sampled_target.h"
 
-#include <glm/geometric.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -74,6 +73,13 @@ struct DrawKey {
     bool operator==(const DrawKey&) const = default;
 };
 
+struct ImageKey {
+    std::shared_ptr<const PreparedSource> source;
+    Style style;
+    OutputKind output;
+    bool operator==(const ImageKey&) const = default;
+};
+
 struct ProgramsKey {
     Style style;
     OutputKind output;
@@ -88,6 +94,7 @@ struct PreparedScene {
     GpuScene gpu;
     Coverage coverage;
     RecentlyUsed<DrawKey, PiecewiseRenderer> draws{16};
+    RecentlyUsed<ImageKey, ImageBasedRenderer> images{8};
     RecentlyUsed<ProgramsKey, const ScenePrograms> programs{16};
 };
 
@@ -133,6 +140,7 @@ struct Renderer::Impl {
     RecentlyUsed<BlendMapsPtr, const GpuBlend> blends{16};
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
     RecentlyUsed<OwnersPtr, const GpuOwners> owners{16};
+    PreparedImages images;
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
 
     std::shared_ptr<PreparedScene> preparedScene(const ScenePtr& scene) {
@@ -225,37 +233,41 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
 }
 
 RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Display& display) {
-    if (request.samples > 1)
-        throw UsageError("image-based takes one sample a pixel; a larger face size is its way to more");
     RenderResult result;
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
-    const std::vector<glm::vec4> rays = displayRays(display);
-    const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
-    const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);
-    const auto middle = display.projection->unproject(glm::dvec2(display.sizePx) / 2.0);
+    const auto source = images.source(request.wall, display, request.source, request.faceSizePx);
+    const auto renderer = scene->images.get({source, request.style, request.output}, [&] {
+        const GeometryPath onePiece;
+        return std::make_shared<ImageBasedRenderer>(
+            programsFor(*scene, {request.style, request.output}, onePiece), scene->gpu, source->gpu);
+    });
     const BlendedTarget blended = targetFor(request, display);
     const TargetFormat format = blended.pictureFormat();
-    ImageBasedRenderer renderer(scene->gpu, rays, display.sizePx, faceSizePx, faces,
-                                middle ? glm::length(*middle) : 1.0, {request.style, request.output}, format);
+    const int samples = request.output == OutputKind::color ? request.samples : 1;
+    const auto pictures = images.pictures(source->gpu, format, samples);
+    const SourceFilter filter = filterFor(request.output, request.filter);
+    const auto resampler = images.resampler(filter);
     const FrameTarget target(display.sizePx, format, 1);
     stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
-        renderer.record(sceneViewOf(camera, request.wall->eyeM, *request.scene), target,
-                        request.wall->background);
+        renderer->record(sceneViewOf(camera, request.wall->eyeM, *request.scene), *pictures, *resampler,
+                         target, request.wall->background);
         blended.record(target);
         waitForGpu();
     };
     measureFrames(
         request, draw, [&] { result.frame = blended.read(target); }, stats);
     stats.method = "image-based";
-    stats.engine = "cube";
-    stats.geometricError = errorOf(cubeError(display, rays, faceSizePx));
-    stats.pairs = renderer.pairCount();
-    stats.faceSizePx = faceSizePx;
-    stats.faces = static_cast<int>(std::ranges::count(faces, true));
+    stats.engine = nameOf(request.source);
+    stats.source = nameOf(request.source);
+    stats.filter = nameOf(filter);
+    stats.geometricError = errorOf(source->error);
+    stats.pairs = renderer->pairCount();
+    stats.faceSizePx = source->gpu.faceSizePx;
+    stats.faces = static_cast<int>(source->gpu.faces.size());
     return result;
 }
 
