@@ -34,6 +34,7 @@ struct RenderCommand {
 RenderRequest requestOf(const RenderCommand& command) {
     RenderRequest request;
     request.method = methodFromName(command.method).value();
+    request.engine = engineFromName(command.engine).value();
     request.style = styleFromName(command.style).value();
     request.output = outputKindFromName(command.outputKind).value();
     request.tolerancePx = command.tolerancePx;
@@ -117,8 +118,8 @@ void addRenderCommand(CLI::App& app) {
     render->add_option("--method", command->method, methodNames())
         ->check(oneOf(methodFromName, methodNames()))
         ->capture_default_str();
-    render->add_option("--engine", command->engine, "How piecewise replicates triangles: compute")
-        ->check(CLI::IsMember({"compute"}))
+    render->add_option("--engine", command->engine, "How piecewise replicates triangles: " + engineNames())
+        ->check(oneOf(engineFromName, engineNames()))
         ->capture_default_str();
     render->add_option("--tolerance", command->tolerancePx, "Largest geometric error of piecewise, pixels")
         ->check(CLI::Validator(checkTolerance, ""))

@@ -9,26 +9,19 @@
 namespace curvewall {
 namespace {
 
-constexpr uint32_t kGroupSize = 128;
+constexpr uint32_t kGroupSize = 64;
+static_assert(kGroupSize == kMostMeshletTriangles, "a meshlet is one group of coverage.comp");
 constexpr uint64_t kPairBytes = 8;
+// OpenGL promises that many groups along one axis.
+constexpr uint32_t kMostPartMeshlets = 65'535;
 
-uint32_t groupsFor(uint32_t items, uint32_t groupSize) { return (items + groupSize - 1) / groupSize; }
+uint32_t groupsFor(uint32_t items) { return (items + kGroupSize - 1) / kGroupSize; }
 
 uint32_t largestCapacity() {
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     // Draw commands count vertices in 32 bits, three a pair.
     return static_cast<uint32_t>(std::min<uint64_t>(static_cast<uint64_t>(bytes) / kPairBytes, 1u << 30));
-}
-
-std::vector<MaterialRange> rangesWithin(const SceneChunk& chunk, uint32_t first, uint32_t count) {
-    std::vector<MaterialRange> ranges;
-    for (const MaterialRange& range : chunk.ranges) {
-        const uint32_t begin = std::max(range.firstTriangle, first);
-        const uint32_t end = std::min(range.firstTriangle + range.triangleCount, first + count);
-        if (begin < end) ranges.push_back({range.material, begin - first, end - begin});
-    }
-    return ranges;
 }
 
 GlProgram computeProgram(std::string_view file, const std::string& mode) {
@@ -42,45 +35,93 @@ void setView(const GlProgram& program, const SceneView& view) {
     glProgramUniform3fv(program.id(), 1, 1, &view.originFromEyeM[0]);
 }
 
-void dispatch(const GlProgram& program, uint32_t groups) {
+constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
+
+void dispatch(const GlProgram& program, uint32_t groups, GLbitfield barrier = kResults) {
     glUseProgram(program.id());
     glDispatchCompute(groups, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(barrier);
+}
+
+void dispatchIndirect(const GlProgram& program) {
+    glUseProgram(program.id());
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(kResults);
 }
 
 }  // namespace
 
-ScenePart::ScenePart(const SceneChunk& source, uint32_t first, uint32_t count)
-    : chunk(&source), firstTriangle(first), triangleCount(count), ranges(rangesWithin(source, first, count)) {
-    std::vector<glm::uvec2> spans;
-    for (const MaterialRange& range : ranges) spans.emplace_back(range.firstTriangle, range.triangleCount);
-    rangeBuffer = makeBuffer(std::span<const glm::uvec2>(spans));
+ScenePart::ScenePart(const SceneChunk& source, uint32_t first, uint32_t most)
+    : chunk(&source), firstMeshlet(first), mostMeshlets(most) {
+    const size_t mostRanges = source.changes ? source.triangleCount : source.ranges.size();
+    rangeBuffer = makeBuffer(nullptr, sizeof(glm::uvec2) * mostRanges, GL_DYNAMIC_STORAGE_BIT);
+    ranges.reserve(mostRanges);
+    update();
 }
 
-Coverage::Coverage(const GpuScene& scene, uint32_t mostPairs)
-    : count_(computeProgram("coverage.comp", "COUNT")),
-      scan_(computeProgram("scan.comp", "SCAN")),
+void ScenePart::update() {
+    meshletCount = std::min(mostMeshlets, chunk->meshletCount - std::min(firstMeshlet, chunk->meshletCount));
+    ranges.clear();
+    for (const ChunkRange& range : chunk->ranges) {
+        const uint32_t begin = std::max(range.firstMeshlet, firstMeshlet);
+        const uint32_t end = std::min(range.firstMeshlet + range.meshletCount, firstMeshlet + meshletCount);
+        if (begin >= end) continue;
+        const glm::uvec2 span(begin - firstMeshlet, end - begin);
+        glNamedBufferSubData(rangeBuffer.id(), static_cast<GLintptr>(sizeof span * ranges.size()),
+                             sizeof span, &span);
+        ChunkRange& within = ranges.emplace_back(range);
+        within.firstMeshlet = span.x;
+        within.meshletCount = span.y;
+    }
+}
+
+Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs)
+    : mark_(computeProgram("meshlets.comp", "MARK")),
+      scanMeshlets_(computeProgram("scan.comp", "MESHLETS")),
+      gather_(computeProgram("meshlets.comp", "GATHER")),
+      count_(computeProgram("coverage.comp", "COUNT")),
+      scanPairs_(computeProgram("scan.comp", "PAIRS")),
       emit_(computeProgram("coverage.comp", "EMIT")),
       commandsProgram_(computeProgram("draw_commands.comp", "COMMANDS")),
       mostPairs_(std::min(mostPairs, largestCapacity())) {
-    for (const SceneChunk& chunk : scene.chunks) {
-        parts_.emplace_back(chunk, 0, chunk.triangleCount);
-        capacity_ = std::max(capacity_, 4 * chunk.triangleCount);
+    for (const SceneChunk& chunk : chunks) {
+        const uint32_t mostMeshlets = chunk.changes ? chunk.triangleCount : chunk.meshletCount;
+        for (uint32_t first = 0; first < mostMeshlets; first += kMostPartMeshlets)
+            parts_.emplace_back(chunk, first, std::min(kMostPartMeshlets, mostMeshlets - first));
+        capacity_ = std::max(capacity_, 2 * chunk.triangleCount);
     }
     capacity_ = std::min(std::max(capacity_, 1u << 16), mostPairs_);
     allocate();
 }
 
+void Coverage::beginFrame() {
+    bool hasRoom = true;
+    for (ScenePart& part : parts_) {
+        if (!part.chunk->changes) continue;
+        part.update();
+        hasRoom = hasRoom && part.meshletCount <= meshletCapacity_ && part.ranges.size() <= rangeCapacity_;
+    }
+    if (!hasRoom) allocate();
+}
+
 void Coverage::allocate() {
-    uint32_t triangles = 1;
+    uint32_t meshlets = 1;
     size_t ranges = 1;
     for (const ScenePart& part : parts_) {
-        triangles = std::max(triangles, part.triangleCount);
-        ranges = std::max(ranges, part.ranges.size());
+        // Room for a chunk that changes to grow into.
+        const uint32_t slack = part.chunk->changes ? 2 : 1;
+        meshlets = std::max(meshlets, std::min(slack * part.meshletCount, part.mostMeshlets));
+        ranges = std::max(ranges, slack * part.ranges.size());
     }
-    groupPairs_ = makeBuffer(nullptr, sizeof(uint32_t) * groupsFor(triangles, kGroupSize));
-    firstPair_ = makeBuffer(nullptr, sizeof(uint32_t) * (triangles + 1));
-    found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * triangles);
+    meshletCapacity_ = meshlets;
+    rangeCapacity_ = ranges;
+    groupSeen_ = makeBuffer(nullptr, sizeof(uint32_t) * (groupsFor(meshlets) + 1));
+    meshletNodes_ = makeBuffer(nullptr, sizeof(glm::uvec2) * meshlets);
+    seen_ = makeBuffer(nullptr, sizeof(uint32_t) * meshlets);
+    placeOf_ = makeBuffer(nullptr, sizeof(uint32_t) * (meshlets + 1));
+    dispatch_ = makeBuffer(nullptr, sizeof(glm::uvec3));
+    groupPairs_ = makeBuffer(nullptr, sizeof(uint32_t) * (meshlets + 1));
+    found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * kGroupSize * meshlets);
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
     commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
     constexpr GLbitfield kMapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
@@ -91,43 +132,61 @@ void Coverage::allocate() {
     if (!totals_) throw std::runtime_error("OpenGL could not map a buffer");
 }
 
-void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view) {
+void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view,
+                         const FramePass& pass) {
     const ScenePart& part = parts_[index];
-    const uint32_t groups = groupsFor(part.triangleCount, kGroupSize);
     bindStorage(0, part.chunk->positions);
     bindStorage(1, part.chunk->corners);
     bindStorage(2, pieces.nodes);
-    bindStorage(3, part.chunk->singleSided);
-    bindStorage(4, groupPairs_);
-    bindStorage(5, firstPair_);
+    bindStorage(3, part.chunk->meshlets);
+    bindStorage(5, meshletNodes_);
     bindStorage(6, pairs_);
     bindStorage(7, found_);
-    for (const GlProgram* program : {&count_, &emit_}) {
+    bindStorage(8, pieces.corners);
+    bindStorage(9, pieces.pieces);
+    bindStorage(10, seen_);
+    bindStorage(11, placeOf_);
+    bindStorage(12, dispatch_);
+    bindStorage(13, totalsBuffer_);
+    bindStorage(14, commands_);
+    bindStorage(15, part.rangeBuffer);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch_.id());
+
+    const uint32_t meshletGroups = groupsFor(part.meshletCount);
+    for (const GlProgram* program : {&mark_, &gather_, &count_, &emit_})
+        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
+    for (const GlProgram* program : {&mark_, &gather_})
+        glProgramUniform1ui(program->id(), 5, part.meshletCount);
+    glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
+    for (const GlProgram* program : {&mark_, &count_, &emit_}) {
         setView(*program, view);
-        glProgramUniform1ui(program->id(), 2, part.firstTriangle);
-        glProgramUniform1ui(program->id(), 3, part.triangleCount);
         glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
     }
+    const glm::vec4 sampleGrid = sampleGridOf(pieces, pass);
+    for (const GlProgram* program : {&count_, &emit_}) {
+        glProgramUniform1ui(program->id(), 15, static_cast<GLuint>(3 + pieces.clipPlanes));
+        glProgramUniform4fv(program->id(), 16, 1, &sampleGrid[0]);
+    }
     glProgramUniform1ui(emit_.id(), 5, capacity_);
-    glProgramUniform1ui(scan_.id(), 3, part.triangleCount);
-    glProgramUniform1ui(scan_.id(), 6, groups);
-    glProgramUniform1ui(scan_.id(), 7, static_cast<GLuint>(index));
-    dispatch(count_, groups);
-    bindStorage(3, totalsBuffer_);
-    dispatch(scan_, 1);
-    dispatch(emit_, groups);
-
+    glProgramUniform1ui(scanPairs_.id(), 7, static_cast<GLuint>(index));
     const auto ranges = static_cast<uint32_t>(part.ranges.size());
-    bindStorage(2, part.rangeBuffer);
-    bindStorage(3, commands_);
     glProgramUniform1ui(commandsProgram_.id(), 5, capacity_);
     glProgramUniform1ui(commandsProgram_.id(), 8, ranges);
-    dispatch(commandsProgram_, groupsFor(ranges, 64));
-    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+
+    bindStorage(4, groupSeen_);
+    dispatch(mark_, meshletGroups);
+    dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
+    dispatch(gather_, meshletGroups);
+    bindStorage(4, groupPairs_);
+    dispatchIndirect(count_);
+    dispatch(scanPairs_, 1);
+    dispatchIndirect(emit_);
+    dispatch(commandsProgram_, groupsFor(ranges),
+             kResults | GL_COMMAND_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
 }
 
-Coverage::Outcome Coverage::finishFrame() {
-    Outcome outcome;
+FrameOutcome Coverage::finishFrame() {
+    FrameOutcome outcome;
     uint64_t needed = 0;
     for (size_t i = 0; i < parts_.size(); ++i) {
         outcome.pairCount += totalOf(i);
@@ -135,24 +194,25 @@ Coverage::Outcome Coverage::finishFrame() {
     }
     outcome.overflowed = needed > capacity_;
     if (!outcome.overflowed) return outcome;
-
-    if (needed > mostPairs_) {
-        std::vector<ScenePart> parts;
-        for (size_t i = 0; i < parts_.size(); ++i) {
-            ScenePart& part = parts_[i];
-            if (totalOf(i) <= mostPairs_ || part.triangleCount == 1) {
-                parts.push_back(std::move(part));
-            } else {
-                const uint32_t half = part.triangleCount / 2;
-                parts.emplace_back(*part.chunk, part.firstTriangle, half);
-                parts.emplace_back(*part.chunk, part.firstTriangle + half, part.triangleCount - half);
-            }
-        }
-        parts_ = std::move(parts);
-    }
+    if (needed > mostPairs_) splitParts();
     capacity_ = static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, mostPairs_));
     allocate();
     return outcome;
+}
+
+void Coverage::splitParts() {
+    std::vector<ScenePart> parts;
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        ScenePart& part = parts_[i];
+        if (totalOf(i) <= mostPairs_ || part.meshletCount == 1) {
+            parts.push_back(std::move(part));
+        } else {
+            const uint32_t half = part.meshletCount / 2;
+            parts.emplace_back(*part.chunk, part.firstMeshlet, half);
+            parts.emplace_back(*part.chunk, part.firstMeshlet + half, part.mostMeshlets - half);
+        }
+    }
+    parts_ = std::move(parts);
 }
 
 }  // namespace curvewall

@@ -1,12 +1,15 @@
 #pragma once
-// Finds the (triangle, piece) pairs of a frame on the GPU.
+// Finds the (triangle, piece) pairs of a frame on the GPU, meshlet by meshlet and then triangle by triangle.
 
+#include "renderer/frame_pass.h"
 #include "renderer/gl/program.h"
 #include "renderer/gpu_pieces.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/replicator.h"
 #include "renderer/scene_view.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace curvewall {
@@ -15,48 +18,52 @@ namespace curvewall {
 inline constexpr uint32_t kPairsPerInstance = 64;
 inline constexpr size_t kDrawCommandBytes = 5 * sizeof(uint32_t);
 
-// A run of a chunk's triangles that is counted, replicated and drawn before the next one.
+// A run of a chunk's meshlets that is counted, replicated and drawn before the next one.
 struct ScenePart {
     const SceneChunk* chunk = nullptr;
-    uint32_t firstTriangle = 0;
-    uint32_t triangleCount = 0;
-    std::vector<MaterialRange> ranges;  // firstTriangle is within the part
-    GlBuffer rangeBuffer;               // the same for draw_commands.comp
+    uint32_t firstMeshlet = 0;
+    uint32_t meshletCount = 0;
+    uint32_t mostMeshlets = 0;       // of a chunk that changes
+    std::vector<ChunkRange> ranges;  // firstMeshlet is within the part
+    GlBuffer rangeBuffer;            // the same for draw_commands.comp
 
-    ScenePart(const SceneChunk& chunk, uint32_t firstTriangle, uint32_t triangleCount);
+    ScenePart(const SceneChunk& chunk, uint32_t firstMeshlet, uint32_t mostMeshlets);
+
+    // Takes over what the chunk holds now.
+    void update();
 };
 
-// The compute engine: count, scan, emit and draw commands a part, no read-back within a frame. Buffers grow
-// between frames only.
+// The compute engine: no read-back within a frame. Buffers grow between frames only.
 class Coverage {
 public:
-    // `mostPairs` limits the pairs of a part below what the driver allows.
-    explicit Coverage(const GpuScene& scene, uint32_t mostPairs = ~0u);
+    // The chunks must outlive it. `mostPairs` limits the pairs of a part below what the driver allows.
+    explicit Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u);
 
     const std::vector<ScenePart>& parts() const { return parts_; }
 
+    // Before the parts of a frame. Buffers grow here where a chunk that changes has outgrown them.
+    void beginFrame();
+
     // Leaves the pairs and one indirect draw command a range in pairs() and commands().
-    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view);
+    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, const FramePass& pass);
     const GlBuffer& pairs() const { return pairs_; }
     const GlBuffer& commands() const { return commands_; }
 
-    // After the GPU has finished a frame: how many pairs it had, and whether some found no room. Then the
-    // buffers are larger or the parts smaller, and the frame must be drawn again.
-    struct Outcome {
-        uint64_t pairCount = 0;
-        bool overflowed = false;
-    };
-    Outcome finishFrame();
+    FrameOutcome finishFrame();
 
 private:
+    void splitParts();
     void allocate();
     uint32_t totalOf(size_t part) const { return totals_[part]; }
 
-    GlProgram count_, scan_, emit_, commandsProgram_;
+    GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
     uint32_t mostPairs_;
     uint32_t capacity_ = 0;  // pairs
-    GlBuffer groupPairs_, firstPair_, found_, pairs_, commands_, totalsBuffer_;
+    uint32_t meshletCapacity_ = 0;
+    size_t rangeCapacity_ = 0;
+    GlBuffer groupSeen_, meshletNodes_, seen_, placeOf_, dispatch_;
+    GlBuffer groupPairs_, found_, pairs_, commands_, totalsBuffer_;
     const volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
 };
 

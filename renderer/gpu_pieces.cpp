@@ -1,5 +1,6 @@
 #include "renderer/gpu_pieces.h"
 
+#include "calibration/errors.h"
 #include "calibration/pieces/ownership.h"
 #include "calibration/pieces/piece_tree.h"
 
@@ -8,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <string>
 
 namespace curvewall {
 namespace {
@@ -63,6 +65,35 @@ std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
     return nodes;
 }
 
+std::vector<glm::vec4> guardedCornersOfAll(const PieceMesh& mesh) {
+    std::vector<glm::vec4> corners;
+    for (const Piece& piece : mesh.pieces) {
+        const std::vector<glm::dvec3> ofPiece = guardedCorners(mesh, piece);
+        for (size_t i = 0; i < kMostPieceEdges; ++i)
+            corners.emplace_back(glm::vec3(glm::normalize(ofPiece[std::min(i, ofPiece.size() - 1)])), 0);
+    }
+    return corners;
+}
+
+constexpr size_t kMostOwnerBytes = size_t{1} << 30;
+
+GpuOwners makeOwners(glm::ivec2 sizePx, int layers) {
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+    GpuOwners gpu{GlTexture(id), false};
+    glTextureStorage3D(id, 1, GL_R32I, sizePx.x, sizePx.y, layers);
+    // Whole numbers are not mixed.
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return gpu;
+}
+
+void fillLayer(GpuOwners& gpu, int layer, const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
+    glTextureSubImage3D(gpu.texture.id(), 0, 0, 0, layer, sizePx.x, sizePx.y, 1, GL_RED_INTEGER, GL_INT,
+                        owners.data());
+    gpu.hasHoles = gpu.hasHoles || std::ranges::find(owners, kNoPiece) != owners.end();
+}
+
 }  // namespace
 
 GpuPieces uploadPieces(const PieceMesh& mesh) {
@@ -71,17 +102,37 @@ GpuPieces uploadPieces(const PieceMesh& mesh) {
     gpu.pieceCount = static_cast<int>(mesh.pieces.size());
     for (const Piece& piece : mesh.pieces)
         gpu.clipPlanes = std::max(gpu.clipPlanes, static_cast<int>(innerEdgePlanes(mesh, piece).size()));
-    gpu.frontIsClockwise = glm::determinant(mesh.pieces.front().screenFromRay) > 0;
+    for (const Piece& piece : mesh.pieces)
+        gpu.frontIsClockwise.push_back(glm::determinant(piece.screenFromRay) > 0);
     gpu.pieces = makeBuffer(std::span<const glm::vec4>(pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes))));
     const std::vector<GpuConeNode> nodes = gpuNodes(mesh);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
+    gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh)));
     return gpu;
 }
 
+glm::vec4 sampleGridOf(const GpuPieces& pieces, const FramePass& pass) {
+    if (pass.samples > 1) return glm::vec4(0);
+    const glm::vec2 half = 0.5f * glm::vec2(pieces.sizePx);
+    return {half, half - 0.5f + pass.shiftPx};
+}
+
 GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
-    GpuOwners gpu{makeTexture2D(GL_R32I, sizePx), std::ranges::find(owners, kNoPiece) != owners.end()};
-    glTextureSubImage2D(gpu.texture.id(), 0, 0, 0, sizePx.x, sizePx.y, GL_RED_INTEGER, GL_INT, owners.data());
+    GpuOwners gpu = makeOwners(sizePx, 1);
+    fillLayer(gpu, 0, owners, sizePx);
+    return gpu;
+}
+
+GpuOwners uploadSampleOwners(const PieceMesh& mesh, std::span<const glm::dvec2> offsetsPx) {
+    const auto pixels = static_cast<size_t>(mesh.sizePx.x) * static_cast<size_t>(mesh.sizePx.y);
+    if (offsetsPx.size() * pixels * sizeof(int32_t) > kMostOwnerBytes)
+        throw UsageError("transparent surfaces with " + std::to_string(offsetsPx.size()) +
+                         " samples a pixel need more than the 1 GiB that may go to whose sample is whose; "
+                         "ask for fewer samples");
+    GpuOwners gpu = makeOwners(mesh.sizePx, static_cast<int>(offsetsPx.size()));
+    for (size_t i = 0; i < offsetsPx.size(); ++i)
+        fillLayer(gpu, static_cast<int>(i), ownerImage(mesh, offsetsPx[i]), mesh.sizePx);
     return gpu;
 }
 

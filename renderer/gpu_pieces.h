@@ -2,7 +2,13 @@
 // A piece mesh in GPU memory, in the layouts of scene.vert and coverage.comp.
 
 #include "calibration/pieces/piece_mesh.h"
+#include "renderer/frame_pass.h"
 #include "renderer/gl/gl_objects.h"
+
+#include <glm/vec4.hpp>
+
+#include <span>
+#include <vector>
 
 namespace curvewall {
 
@@ -12,21 +18,32 @@ inline constexpr float kNearFraction = 1e-5f;
 struct GpuPieces {
     glm::ivec2 sizePx{0};
     int pieceCount = 0;
-    int clipPlanes = 0;             // planes a piece is clipped by; edges on the display's border need none
-    bool frontIsClockwise = false;  // of a single piece: how triangles seen from the front turn on the screen
-    GlBuffer pieces;                // three rows of H to clip space, then clipPlanes planes, each a vec4
+    int clipPlanes = 0;  // planes a piece is clipped by; edges on the display's border need none
+    std::vector<bool>
+        frontIsClockwise;  // of each piece: how triangles seen from the front turn on the screen
+    GlBuffer pieces;       // three rows of H to clip space, then clipPlanes planes, each a vec4
     uint32_t nodeCount = 0;
-    GlBuffer nodes;  // the piece tree
+    GlBuffer nodes;    // the piece tree
+    GlBuffer corners;  // six rays a piece with its guard, the last one repeated, each a vec4
 };
 
 GpuPieces uploadPieces(const PieceMesh& mesh);
 
-// The owner of every pixel; see calibration/pieces/ownership.h.
+// Scale and offset that make clip space whole numbers at the samples of a pass; zeros where it has several a
+// pixel.
+glm::vec4 sampleGridOf(const GpuPieces& pieces, const FramePass& pass);
+
+// The owner of every pixel, or of every sample of every pixel; see calibration/pieces/ownership.h.
 struct GpuOwners {
-    GlTexture texture;  // R32I
+    GlTexture texture;  // an array of R32I, one layer a sample
     bool hasHoles = false;
 };
 
+// Of the pixels' centres.
 GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx);
+
+// Of samples that lie at `offsetsPx` from their pixel's top left corner. Throws UsageError where they would
+// take too much memory.
+GpuOwners uploadSampleOwners(const PieceMesh& mesh, std::span<const glm::dvec2> offsetsPx);
 
 }  // namespace curvewall

@@ -1,6 +1,9 @@
 #include "renderer/gpu_scene.h"
 
 #include "calibration/errors.h"
+#include "renderer/blended_triangles.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +37,13 @@ public:
 
     void add(glm::uvec3 triangle, uint32_t material) {
         if (ranges_.empty() || ranges_.back().material != material)
-            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0});
+            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0, 0, 0});
         ++ranges_.back().triangleCount;
+        triangles_.push_back(localCorners(triangle));
+    }
+
+    // The same triangle by the chunk's vertices.
+    glm::uvec3 localCorners(glm::uvec3 triangle) {
         for (int i = 0; i < 3; ++i) {
             uint32_t& index = local_[triangle[i]];
             if (index == kUnassigned) {
@@ -44,10 +52,24 @@ public:
             }
             triangle[i] = index;
         }
-        triangles_.push_back(triangle);
+        return triangle;
     }
 
     SceneChunk upload() {
+        const std::vector<GpuMeshlet> meshlets = cutIntoMeshlets();
+        SceneChunk chunk = uploadVertices();
+        chunk.corners = makeBuffer(std::span<const glm::uvec3>(triangles_));
+        chunk.meshlets = makeBuffer(std::span<const GpuMeshlet>(meshlets));
+        chunk.vertexArray = vertexArrayOver(chunk);
+        chunk.triangleCount = static_cast<uint32_t>(triangles_.size());
+        chunk.meshletCount = static_cast<uint32_t>(meshlets.size());
+        chunk.ranges = std::move(ranges_);
+        triangles_.clear();
+        ranges_.clear();
+        return chunk;
+    }
+
+    SceneChunk uploadVertices() {
         SceneChunk chunk;
         std::vector<glm::vec3> positions;
         std::vector<uint32_t> normals;
@@ -61,55 +83,45 @@ public:
         chunk.positions = makeBuffer(std::span<const glm::vec3>(positions));
         chunk.normals = makeBuffer(std::span<const uint32_t>(normals));
         chunk.uvs = makeBuffer(std::span<const glm::vec2>(uvs));
-        chunk.corners = makeBuffer(std::span<const glm::uvec3>(triangles_));
-        chunk.singleSided = makeBuffer(std::span<const uint32_t>(singleSidedBits()));
-        chunk.vertexArray = vertexArrayOver(chunk);
-        chunk.triangleCount = static_cast<uint32_t>(triangles_.size());
-        chunk.ranges = std::move(ranges_);
         vertices_.clear();
-        triangles_.clear();
-        ranges_.clear();
         return chunk;
     }
 
 private:
-    std::vector<uint32_t> singleSidedBits() const {
-        std::vector<uint32_t> bits(triangles_.size() / 32 + 1);
-        for (const MaterialRange& range : ranges_) {
-            if (scene_.materials[range.material].doubleSided) continue;
-            for (uint32_t i = 0; i < range.triangleCount; ++i)
-                bits[(range.firstTriangle + i) / 32] |= 1u << ((range.firstTriangle + i) % 32);
+    std::vector<GpuMeshlet> cutIntoMeshlets() {
+        std::vector<GpuMeshlet> meshlets;
+        for (ChunkRange& range : ranges_) {
+            range.firstMeshlet = static_cast<uint32_t>(meshlets.size());
+            for (uint32_t i = 0; i < range.triangleCount; i += kMostMeshletTriangles) {
+                GpuMeshlet& m = meshlets.emplace_back();
+                m.firstTriangle = range.firstTriangle + i;
+                m.triangleCount = std::min(kMostMeshletTriangles, range.triangleCount - i);
+                m.isSingleSided = scene_.materials[range.material].doubleSided ? 0 : 1;
+                glm::vec3 lo(1e30f), hi(-1e30f);
+                for (uint32_t t = 0; t < m.triangleCount; ++t)
+                    for (int k = 0; k < 3; ++k) {
+                        lo = glm::min(lo, scene_.positions[vertices_[triangles_[m.firstTriangle + t][k]]]);
+                        hi = glm::max(hi, scene_.positions[vertices_[triangles_[m.firstTriangle + t][k]]]);
+                    }
+                m.sphere = glm::vec4((lo + hi) * 0.5f, glm::length(hi - lo) * 0.5001f);
+            }
+            range.meshletCount = static_cast<uint32_t>(meshlets.size()) - range.firstMeshlet;
         }
-        return bits;
-    }
-
-    static GlVertexArray vertexArrayOver(const SceneChunk& chunk) {
-        GlVertexArray array = makeVertexArray();
-        const auto attribute = [&](GLuint index, const GlBuffer& buffer, GLsizei stride, GLint size,
-                                   GLenum type, GLboolean normalized) {
-            glVertexArrayVertexBuffer(array.id(), index, buffer.id(), 0, stride);
-            glVertexArrayAttribFormat(array.id(), index, size, type, normalized, 0);
-            glVertexArrayAttribBinding(array.id(), index, index);
-            glEnableVertexArrayAttrib(array.id(), index);
-        };
-        attribute(0, chunk.positions, sizeof(glm::vec3), 3, GL_FLOAT, GL_FALSE);
-        attribute(1, chunk.normals, sizeof(uint32_t), 4, GL_INT_2_10_10_10_REV, GL_TRUE);
-        attribute(2, chunk.uvs, sizeof(glm::vec2), 2, GL_FLOAT, GL_FALSE);
-        glVertexArrayElementBuffer(array.id(), chunk.corners.id());
-        return array;
+        return meshlets;
     }
 
     const Scene& scene_;
     std::vector<uint32_t> local_;     // scene vertex -> chunk vertex
     std::vector<uint32_t> vertices_;  // chunk vertex -> scene vertex
     std::vector<glm::uvec3> triangles_;
-    std::vector<MaterialRange> ranges_;
+    std::vector<ChunkRange> ranges_;
 };
 
 std::vector<SceneChunk> uploadChunks(const Scene& scene) {
     std::vector<SceneChunk> chunks;
     ChunkBuilder builder(scene);
     for (const MaterialRange& range : scene.ranges) {
+        if (scene.materials[range.material].blending != Blending::none) continue;
         for (uint32_t i = 0; i < range.triangleCount; ++i) {
             if (!builder.hasRoom()) chunks.push_back(builder.upload());
             builder.add(scene.triangles[range.firstTriangle + i], range.material);
@@ -158,11 +170,46 @@ GlSampler makeSampler(const Texture& texture) {
     return sampler;
 }
 
+std::shared_ptr<BlendedTriangles> uploadBlended(const Scene& scene) {
+    ChunkBuilder builder(scene);
+    std::vector<BlendedTriangles::Triangle> triangles;
+    for (const MaterialRange& range : scene.ranges) {
+        const Material& material = scene.materials[range.material];
+        if (material.blending == Blending::none) continue;
+        for (uint32_t i = 0; i < range.triangleCount; ++i) {
+            const glm::uvec3 corners = scene.triangles[range.firstTriangle + i];
+            const glm::vec3 centre =
+                (scene.positions[corners.x] + scene.positions[corners.y] + scene.positions[corners.z]) / 3.0f;
+            triangles.push_back(
+                {builder.localCorners(corners), centre, range.material, !material.doubleSided});
+        }
+    }
+    if (triangles.empty()) return nullptr;
+    return std::make_shared<BlendedTriangles>(builder.uploadVertices(), std::move(triangles));
+}
+
 }  // namespace
+
+GlVertexArray vertexArrayOver(const SceneChunk& chunk) {
+    GlVertexArray array = makeVertexArray();
+    const auto attribute = [&](GLuint index, const GlBuffer& buffer, GLsizei stride, GLint size, GLenum type,
+                               GLboolean normalized) {
+        glVertexArrayVertexBuffer(array.id(), index, buffer.id(), 0, stride);
+        glVertexArrayAttribFormat(array.id(), index, size, type, normalized, 0);
+        glVertexArrayAttribBinding(array.id(), index, index);
+        glEnableVertexArrayAttrib(array.id(), index);
+    };
+    attribute(0, chunk.positions, sizeof(glm::vec3), 3, GL_FLOAT, GL_FALSE);
+    attribute(1, chunk.normals, sizeof(uint32_t), 4, GL_INT_2_10_10_10_REV, GL_TRUE);
+    attribute(2, chunk.uvs, sizeof(glm::vec2), 2, GL_FLOAT, GL_FALSE);
+    glVertexArrayElementBuffer(array.id(), chunk.corners.id());
+    return array;
+}
 
 GpuScene uploadScene(ScenePtr scene) {
     GpuScene uploaded;
     uploaded.chunks = uploadChunks(*scene);
+    uploaded.blended = uploadBlended(*scene);
     for (const Texture& texture : scene->textures) {
         uploaded.textures.push_back(uploadTexture(texture));
         uploaded.samplers.push_back(makeSampler(texture));

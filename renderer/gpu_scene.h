@@ -4,26 +4,55 @@
 #include "renderer/gl/gl_objects.h"
 #include "renderer/scene/scene.h"
 
+#include <glm/vec4.hpp>
+
 #include <cstdint>
 #include <vector>
 
 namespace curvewall {
+
+inline constexpr uint32_t kMostMeshletTriangles = 64;
+
+// A run of a chunk's triangles that share a material, in whole meshlets.
+struct ChunkRange {
+    uint32_t material = 0;
+    uint32_t firstTriangle = 0, triangleCount = 0;
+    uint32_t firstMeshlet = 0, meshletCount = 0;
+};
+
+// As shaders/meshlet.glsl reads it.
+struct GpuMeshlet {
+    glm::vec4 sphere{0};         // centre relative to the scene's origin, radius
+    glm::vec4 cone{0, 0, 1, 2};  // axis and cutoff of the normals; a cutoff above 1 tells nothing
+    uint32_t firstTriangle = 0;
+    uint32_t triangleCount = 0;
+    uint32_t isSingleSided = 0;
+    uint32_t reserved = 0;
+};
 
 // A part of a scene whose buffers stay below the smallest storage block limit in use (128 MB on llvmpipe).
 struct SceneChunk {
     GlBuffer positions;  // three floats a vertex, metres relative to the scene's origin
     GlBuffer normals;    // signed 10-bit integers, x lowest
     GlBuffer uvs;
-    GlBuffer corners;      // three vertex indices a triangle
-    GlBuffer singleSided;  // one bit a triangle
+    GlBuffer corners;   // three vertex indices a triangle, meshlet by meshlet
+    GlBuffer meshlets;  // GpuMeshlet
     GlVertexArray vertexArray;
     uint32_t triangleCount = 0;
-    std::vector<MaterialRange> ranges;
+    uint32_t meshletCount = 0;
+    std::vector<ChunkRange> ranges;
+    bool changes = false;  // ranges and meshlets are other ones in every frame
 };
+
+// Positions, normals and uvs as vertex attributes 0 to 2, corners as indices.
+GlVertexArray vertexArrayOver(const SceneChunk& chunk);
+
+class BlendedTriangles;
 
 struct GpuScene {
     ScenePtr scene;
-    std::vector<SceneChunk> chunks;
+    std::vector<SceneChunk> chunks;             // of what hides what lies behind it
+    std::shared_ptr<BlendedTriangles> blended;  // of the rest, where there is any
     std::vector<GlTexture> textures;
     std::vector<GlSampler> samplers;  // one a texture
 };

@@ -1,93 +1,128 @@
 #include "renderer/piecewise.h"
 
+#include "renderer/blended_triangles.h"
+
 #include <utility>
 
 namespace curvewall {
+namespace {
 
-GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, OutputKind output) {
-    GeometryPath path{.pairs = pieces.pieceCount > 1, .clipPlanes = pieces.clipPlanes};
-    const bool singleCover = output == OutputKind::coverage || output == OutputKind::position;
-    if (path.pairs && singleCover)
-        path.right = PixelRight::owner;
-    else if (owners && owners->hasHoles)
-        path.right = PixelRight::notHoles;
+std::span<const SceneChunk> blendedChunk(const GpuScene& scene) { return {&scene.blended->chunk(), 1}; }
+
+void enableClipPlanes(int count) {
+    for (int i = 0; i < 8; ++i)
+        (i < count ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
+}
+
+}  // namespace
+
+SceneReplicators makeReplicators(Engine engine, const GpuScene& scene) {
+    SceneReplicators replicators{engine, makeReplicator(engine, scene.chunks), nullptr};
+    if (scene.blended) replicators.blended = makeReplicator(engine, blendedChunk(scene));
+    return replicators;
+}
+
+GeometryPath pathThrough(const GpuPieces& pieces, const PieceOwners& owners, OutputKind output, Engine engine,
+                         int samples) {
+    GeometryPath path{.clipPlanes = pieces.clipPlanes};
+    if (pieces.pieceCount > 1) {
+        path.source = engine == Engine::loop ? CornerSource::loop : CornerSource::pairs;
+        path.singleCover = output == OutputKind::coverage || output == OutputKind::position;
+        path.ownerSamples = owners.ofSamples ? samples : 1;
+    } else {
+        // Counted without a depth test, which keeps all else out of holes.
+        path.singleCover = output == OutputKind::coverage && owners.ofPixels && owners.ofPixels->hasHoles;
+    }
     return path;
 }
 
-PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage,
-                                     SceneLook look, const GpuOwners* owners)
-    : PiecewiseRenderer(
-          std::make_shared<const ScenePrograms>(*scene.scene, look, pathThrough(pieces, owners, look.output)),
-          scene, pieces, coverage, owners) {}
+PiecewiseRenderer::PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces,
+                                     SceneReplicators* replicators, SceneLook look, const PieceOwners& owners)
+    : PiecewiseRenderer(std::make_shared<const ScenePrograms>(
+                            *scene.scene, look,
+                            pathThrough(pieces, owners, look.output,
+                                        replicators ? replicators->engine : Engine::compute, 1)),
+                        scene, pieces, replicators, owners) {}
 
 PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> programs, const GpuScene& scene,
-                                     const GpuPieces& pieces, Coverage* coverage, const GpuOwners* owners)
+                                     const GpuPieces& pieces, SceneReplicators* replicators,
+                                     const PieceOwners& owners)
     : scene_(scene),
       pieces_(pieces),
-      coverage_(pieces.pieceCount > 1 ? coverage : nullptr),
+      replicators_(pieces.pieceCount > 1 ? replicators : nullptr),
       owners_(owners),
       programs_(std::move(programs)),
-      emptyVertexArray_(makeVertexArray()) {}
+      emptyVertexArray_(makeVertexArray()) {
+    if (owners.ofPixels && owners.ofPixels->hasHoles && output() != OutputKind::coverage)
+        holesProgram_ =
+            makeProgram({{GL_VERTEX_SHADER, "whole_screen.vert"}, {GL_FRAGMENT_SHADER, "holes.frag"}});
+}
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
-    programs_->setFrame(view, pieces_.frontIsClockwise, 2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx));
+    if (holesProgram_) closeHoles();
+    programs_->setFrame(view, pieces_.frontIsClockwise.front(),
+                        2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx),
+                        owners_.ofSamples ? pass.firstSample : 0);
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
-    for (int i = 0; i < 8; ++i)
-        (i < pieces_.clipPlanes ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
-    if (owners_) glBindTextureUnit(1, owners_->texture.id());
-    if (coverage_)
-        recordPairs(view);
+    enableClipPlanes(pieces_.clipPlanes);
+    const GpuOwners* owners = owners_.ofSamples ? owners_.ofSamples : owners_.ofPixels;
+    if (owners) glBindTextureUnit(1, owners->texture.id());
+    const MaterialBinder materials{scene_, *programs_};
+    const PieceDraw draw{pieces_, view, pass, materials};
+    if (replicators_)
+        replicators_->opaque->draw(draw);
     else
-        recordPlain();
+        recordPlain(scene_.chunks, draw);
+    // Distances and points are those of what hides the rest.
+    if (scene_.blended && (output() == OutputKind::color || output() == OutputKind::coverage))
+        recordBlended(draw);
 }
 
-GLuint PiecewiseRenderer::bindMaterial(const Material& material) const {
-    const ScenePrograms::Chosen chosen = programs_->choose(material);
-    if (chosen.textured) {
-        const auto texture = static_cast<size_t>(material.texture);
-        glBindTextureUnit(0, scene_.textures[texture].id());
-        glBindSampler(0, scene_.samplers[texture].id());
-    }
-    return chosen.program;
+// Nothing is nearer than a hole, and unlike a fragment that is discarded it leaves the early depth test on.
+void PiecewiseRenderer::closeHoles() const {
+    enableClipPlanes(0);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glUseProgram(holesProgram_.id());
+    glBindTextureUnit(1, owners_.ofPixels->texture.id());
+    glBindVertexArray(emptyVertexArray_.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-void PiecewiseRenderer::recordPlain() {
-    bindStorage(2, pieces_.pieces);
-    for (const SceneChunk& chunk : scene_.chunks) {
+void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {
+    scene_.blended->sortFor(draw.view);
+    const bool mixes = output() == OutputKind::color;
+    glDepthMask(GL_FALSE);
+    if (mixes) glEnable(GL_BLEND);
+    if (replicators_)
+        replicators_->blended->draw(draw);
+    else
+        recordPlain(blendedChunk(scene_), draw);
+    if (mixes) glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+}
+
+void PiecewiseRenderer::recordPlain(std::span<const SceneChunk> chunks, const PieceDraw& draw) {
+    bindStorage(2, draw.pieces.pieces);
+    for (const SceneChunk& chunk : chunks) {
         glBindVertexArray(chunk.vertexArray.id());
-        for (const MaterialRange& range : chunk.ranges) {
-            bindMaterial(scene_.scene->materials[range.material]);
+        for (const ChunkRange& range : chunk.ranges) {
+            draw.materials.bind(range.material);
             glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * range.triangleCount), GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(size_t{12} * range.firstTriangle));
         }
     }
 }
 
-void PiecewiseRenderer::recordPairs(const SceneView& view) {
-    for (size_t i = 0; i < coverage_->parts().size(); ++i) {
-        const ScenePart& part = coverage_->parts()[i];
-        coverage_->findPairs(i, pieces_, view);
-        glBindVertexArray(emptyVertexArray_.id());
-        glBindBuffer(GL_DRAW_INDIRECT_BUFFER, coverage_->commands().id());
-        bindStorage(0, part.chunk->positions);
-        bindStorage(1, part.chunk->corners);
-        bindStorage(2, pieces_.pieces);
-        bindStorage(3, part.chunk->normals);
-        bindStorage(4, part.chunk->uvs);
-        bindStorage(5, coverage_->commands());
-        bindStorage(6, coverage_->pairs());
-        for (size_t r = 0; r < part.ranges.size(); ++r) {
-            const GLuint program = bindMaterial(scene_.scene->materials[part.ranges[r].material]);
-            glProgramUniform1ui(program, 13, static_cast<GLuint>(r));
-            glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kDrawCommandBytes * r));
-        }
-    }
-}
-
 std::optional<uint64_t> PiecewiseRenderer::finishFrame() {
-    if (!coverage_) return scene_.scene->triangles.size();
-    const Coverage::Outcome outcome = coverage_->finishFrame();
+    if (!replicators_) return scene_.scene->triangles.size();
+    FrameOutcome outcome = replicators_->opaque->finishFrame();
+    if (replicators_->blended) {
+        const FrameOutcome blended = replicators_->blended->finishFrame();
+        outcome.pairCount += blended.pairCount;
+        outcome.overflowed = outcome.overflowed || blended.overflowed;
+    }
     if (outcome.overflowed) return std::nullopt;
     return outcome.pairCount;
 }

@@ -2,8 +2,8 @@
 // Piecewise perspective rendering (Lorenz and Doellner, 2009): the scene is drawn once, every triangle into
 // just the pieces that it touches, each piece a plain perspective projection.
 
-#include "renderer/coverage.h"
 #include "renderer/frame_pass.h"
+#include "renderer/replicator.h"
 #include "renderer/scene_programs.h"
 
 #include <memory>
@@ -11,24 +11,40 @@
 
 namespace curvewall {
 
-// How pieces reach the shaders, which are compiled for that.
-GeometryPath pathThrough(const GpuPieces& pieces, const GpuOwners* owners, OutputKind output);
+// How the triangles of a scene get into the pieces, one frame at a time for all renderers of the scene.
+struct SceneReplicators {
+    Engine engine = Engine::compute;
+    std::unique_ptr<Replicator> opaque, blended;  // the second where the scene has such triangles
+};
 
-// Draws a scene through one piece mesh. A mesh of one piece is one plain draw. The scene and the pieces must
-// outlive it.
+SceneReplicators makeReplicators(Engine engine, const GpuScene& scene);
+
+// Whose a pixel is. Each may be null where nothing asks for it.
+struct PieceOwners {
+    // Needed where the display has holes and for OutputKind::coverage and position.
+    const GpuOwners* ofPixels = nullptr;
+    // Needed where blended triangles are drawn into several pieces with other samples than the pixel's
+    // centre: one layer for each sample of each pass, in order.
+    const GpuOwners* ofSamples = nullptr;
+};
+
+// How pieces reach the shaders, which are compiled for that. `samples` is how many a pixel has in one pass.
+GeometryPath pathThrough(const GpuPieces& pieces, const PieceOwners& owners, OutputKind output, Engine engine,
+                         int samples);
+
+// Draws a scene through one piece mesh. A mesh of one piece is one plain draw. The scene, the pieces, their
+// owners and the replicators must outlive it.
 class PiecewiseRenderer {
 public:
-    // `coverage` finds the pairs where there are several pieces; it serves all renderers of its scene, one
-    // frame at a time. With one piece it may be null. `owners` is needed where the display has holes and for
-    // OutputKind::coverage and position, where each pixel must be its owner's; elsewhere it may be null.
-    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, Coverage* coverage, SceneLook look,
-                      const GpuOwners* owners);
+    // `replicators` is needed where there are several pieces.
+    PiecewiseRenderer(const GpuScene& scene, const GpuPieces& pieces, SceneReplicators* replicators,
+                      SceneLook look, const PieceOwners& owners = {});
 
     // The same with programs that others use too; they must be for pathThrough().
     PiecewiseRenderer(std::shared_ptr<const ScenePrograms> programs, const GpuScene& scene,
-                      const GpuPieces& pieces, Coverage* coverage, const GpuOwners* owners);
+                      const GpuPieces& pieces, SceneReplicators* replicators, const PieceOwners& owners);
 
-    // Draws into the bound framebuffer. Records GL work only: nothing is allocated, compiled or read back.
+    // Draws into the bound framebuffer. Records GL work only: nothing is compiled or read back.
     void record(const SceneView& view, const FramePass& pass = {});
 
     // Pairs of the frame just finished, or nothing when some found no room: then record it once more.
@@ -36,15 +52,17 @@ public:
     std::optional<uint64_t> finishFrame();
 
 private:
-    void recordPlain();
-    void recordPairs(const SceneView& view);
-    GLuint bindMaterial(const Material& material) const;  // the program that is current then
+    void closeHoles() const;
+    void recordBlended(const PieceDraw& draw);
+    static void recordPlain(std::span<const SceneChunk> chunks, const PieceDraw& draw);
+    OutputKind output() const { return programs_->look().output; }
 
     const GpuScene& scene_;
     const GpuPieces& pieces_;
-    Coverage* coverage_;  // null: one plain draw
-    const GpuOwners* owners_;
+    SceneReplicators* replicators_;  // null: one plain draw
+    PieceOwners owners_;
     std::shared_ptr<const ScenePrograms> programs_;
+    GlProgram holesProgram_;  // where there are holes
     GlVertexArray emptyVertexArray_;
 };
 

@@ -7,8 +7,8 @@
 #include "renderer/blending.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/names.h"
-#include "renderer/piecewise.h"
 #include "renderer/prepared_images.h"
+#include "renderer/prepared_scene.h"
 #include "renderer/recently_used.h"
 #include "renderer/reference.h"
 #include "renderer/sampled_target.h"
@@ -59,43 +59,10 @@ struct PiecesKey {
     bool operator==(const PiecesKey&) const = default;
 };
 
-struct PreparedPieces {
-    Certificate certificate;
-    std::chrono::steady_clock::time_point fullyCertifiedAt;
-    GpuPieces gpu;
-    std::shared_ptr<const GpuOwners> owners;  // refits share them
-};
-
-struct DrawKey {
-    std::shared_ptr<PreparedPieces> pieces;
-    Style style;
-    OutputKind output;
-    bool operator==(const DrawKey&) const = default;
-};
-
-struct ImageKey {
-    std::shared_ptr<const PreparedSource> source;
-    Style style;
-    OutputKind output;
-    bool operator==(const ImageKey&) const = default;
-};
-
-struct ProgramsKey {
-    Style style;
-    OutputKind output;
-    GeometryPath path;
-    bool operator==(const ProgramsKey&) const = default;
-};
-
-// A scene on the GPU with all that is made for it, so that it goes as one.
-struct PreparedScene {
-    explicit PreparedScene(const ScenePtr& scene) : gpu(uploadScene(scene)), coverage(gpu) {}
-
-    GpuScene gpu;
-    Coverage coverage;
-    RecentlyUsed<DrawKey, PiecewiseRenderer> draws{16};
-    RecentlyUsed<ImageKey, ImageBasedRenderer> images{8};
-    RecentlyUsed<ProgramsKey, const ScenePrograms> programs{16};
+struct OwnersKey {
+    OwnersPtr owners;
+    int samples;
+    bool operator==(const OwnersKey&) const = default;
 };
 
 // Waits until the GPU has done everything recorded so far.
@@ -140,6 +107,7 @@ struct Renderer::Impl {
     RecentlyUsed<BlendMapsPtr, const GpuBlend> blends{16};
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
     RecentlyUsed<OwnersPtr, const GpuOwners> owners{16};
+    RecentlyUsed<OwnersKey, const GpuOwners> sampleOwners{4};
     PreparedImages images;
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
 
@@ -156,8 +124,8 @@ struct Renderer::Impl {
             const auto gpuOwners = owners.get(fitted->owners, [&] {
                 return std::make_shared<const GpuOwners>(uploadOwners(*fitted->owners, display.sizePx));
             });
-            return std::make_shared<PreparedPieces>(PreparedPieces{
-                fitted->certificate, fitted->fullyCertifiedAt, uploadPieces(fitted->mesh), gpuOwners});
+            return std::make_shared<PreparedPieces>(
+                PreparedPieces{uploadPieces(fitted->mesh), fitted, gpuOwners});
         });
     }
 
@@ -166,6 +134,28 @@ struct Renderer::Impl {
                                                             const GeometryPath& path) {
         return scene.programs.get({look.style, look.output, path}, [&] {
             return std::make_shared<const ScenePrograms>(*scene.gpu.scene, look, path);
+        });
+    }
+
+    std::shared_ptr<PreparedDraw> preparedDraw(const RenderRequest& request, PreparedScene& scene,
+                                               const std::shared_ptr<PreparedPieces>& prepared,
+                                               const SampledTarget& target, int samples) {
+        return scene.draws.get({prepared, request.engine, request.style, request.output, samples}, [&] {
+            const SceneLook look{request.style, request.output};
+            PieceOwners whose{prepared->owners.get(), nullptr};
+            std::shared_ptr<const GpuOwners> sampled;
+            if (samples > 1 && scene.gpu.blended && prepared->gpu.pieceCount > 1) {
+                sampled = sampleOwners.get({prepared->fitted->owners, samples}, [&] {
+                    return std::make_shared<const GpuOwners>(
+                        uploadSampleOwners(prepared->fitted->mesh, target.sampleOffsetsPx()));
+                });
+                whose.ofSamples = sampled.get();
+            }
+            const GeometryPath path =
+                pathThrough(prepared->gpu, whose, look.output, request.engine, target.samplesAPass());
+            return std::make_shared<PreparedDraw>(PreparedDraw{
+                sampled, PiecewiseRenderer(programsFor(scene, look, path), scene.gpu, prepared->gpu,
+                                           &scene.replicatorsFor(request.engine), whose)});
         });
     }
 
@@ -190,17 +180,11 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
     const auto prepared = preparedPieces(request, display);
-    const auto renderer = scene->draws.get({prepared, request.style, request.output}, [&] {
-        const SceneLook look{request.style, request.output};
-        const GpuOwners* gpuOwners = prepared->owners.get();
-        return std::make_shared<PiecewiseRenderer>(
-            programsFor(*scene, look, pathThrough(prepared->gpu, gpuOwners, look.output)), scene->gpu,
-            prepared->gpu, &scene->coverage, gpuOwners);
-    });
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
     const BlendedTarget blended = targetFor(request, display);
     const SampledTarget target(display.sizePx, blended.pictureFormat(), samples);
+    const auto drawn = preparedDraw(request, *scene, prepared, target, samples);
     stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
@@ -208,10 +192,10 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
         std::optional<uint64_t> pairs;
         while (!pairs) {
             target.draw(request.wall->background,
-                        [&](const FramePass& pass) { renderer->record(view, pass); });
+                        [&](const FramePass& pass) { drawn->renderer.record(view, pass); });
             blended.record(target.picture());
             waitForGpu();
-            pairs = renderer->finishFrame();
+            pairs = drawn->renderer.finishFrame();
         }
         stats.pairs = *pairs;
     };
@@ -223,12 +207,12 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     measureFrames(request, draw, readFirst, stats);
     stats.pairs = firstPairs;
     stats.method = "piecewise";
-    stats.engine = prepared->gpu.pieceCount > 1 ? "compute" : "plain";
+    stats.engine = prepared->gpu.pieceCount > 1 ? nameOf(request.engine) : "plain";
     stats.tolerancePx = request.tolerancePx;
-    stats.geometricError = errorOf(prepared->certificate);
+    stats.geometricError = errorOf(prepared->fitted->certificate);
     stats.pieces = prepared->gpu.pieceCount;
-    stats.certificateEvery = prepared->certificate.every;
-    stats.fullCertificateAgeMs = millisecondsSince(prepared->fullyCertifiedAt);
+    stats.certificateEvery = prepared->fitted->certificate.every;
+    stats.fullCertificateAgeMs = millisecondsSince(prepared->fitted->fullyCertifiedAt);
     return result;
 }
 

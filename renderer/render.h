@@ -3,6 +3,7 @@
 
 #include "calibration/wall.h"
 #include "renderer/camera.h"
+#include "renderer/engine.h"
 #include "renderer/frame.h"
 #include "renderer/image_source.h"
 #include "renderer/look.h"
@@ -27,6 +28,7 @@ struct RenderRequest {
     ScenePtr scene;
     Camera camera;
     Method method = Method::piecewise;
+    Engine engine = Engine::compute;           // piecewise
     double tolerancePx = kDefaultTolerancePx;  // piecewise
     // Of this display, seen from this eye, at this tolerance; without them the render fits them.
     std::shared_ptr<const FittedPieces> pieces{};

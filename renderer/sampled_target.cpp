@@ -14,12 +14,14 @@ int mostHardwareSamples() {
 }
 
 std::vector<FramePass> passesFor(int samples) {
-    if (samples <= mostHardwareSamples()) return {FramePass{}};
+    if (samples <= mostHardwareSamples()) return {FramePass{.samples = samples}};
     std::vector<FramePass> passes;
     // A sample stands for an area of 1 / samples of the pixel.
     const float lodBias = -0.5f * std::log2(static_cast<float>(samples));
     for (const glm::dvec2 offset : samplePattern(samples, 0))
-        passes.push_back({glm::vec2(0.5 - offset), lodBias});
+        passes.push_back({.shiftPx = glm::vec2(0.5 - offset),
+                          .firstSample = static_cast<int>(passes.size()),
+                          .lodBias = lodBias});
     return passes;
 }
 
@@ -33,6 +35,19 @@ SampledTarget::SampledTarget(glm::ivec2 sizePx, TargetFormat format, int samples
         makeProgram({{GL_VERTEX_SHADER, "whole_screen.vert"}, {GL_FRAGMENT_SHADER, "add_pass.frag"}});
     glProgramUniform1f(addProgram_.id(), 0, 1 / static_cast<float>(passes_.size()));
     emptyVertexArray_ = makeVertexArray();
+}
+
+std::vector<glm::dvec2> SampledTarget::sampleOffsetsPx() const {
+    std::vector<glm::dvec2> offsets;
+    target_.bind();
+    for (const FramePass& pass : passes_) {
+        for (int i = 0; i < pass.samples; ++i) {
+            glm::vec2 inPixel(0.5f);  // the picture's row 0 is the framebuffer's
+            if (pass.samples > 1) glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), &inPixel[0]);
+            offsets.push_back(glm::dvec2(inPixel - pass.shiftPx));
+        }
+    }
+    return offsets;
 }
 
 void SampledTarget::draw(glm::vec3 background, const std::function<void(const FramePass&)>& record) const {

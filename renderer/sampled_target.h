@@ -16,6 +16,10 @@ class SampledTarget {
 public:
     SampledTarget(glm::ivec2 sizePx, TargetFormat format, int samples);
 
+    int samplesAPass() const { return passes_.front().samples; }
+    // Where the samples of all passes lie, from their pixel's top left corner.
+    std::vector<glm::dvec2> sampleOffsetsPx() const;
+
     // Calls record for every pass.
     void draw(glm::vec3 background, const std::function<void(const FramePass&)>& record) const;
 

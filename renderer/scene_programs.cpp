@@ -34,20 +34,24 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         const auto defineIf = [&](bool condition, const char* name) {
             if (condition) defines.emplace_back(name);
         };
-        defineIf(path.pairs, "PAIRS");
-        if (path.pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
-        defineIf(path.right == PixelRight::owner, "OWNED");
-        defineIf(path.right == PixelRight::notHoles, "HOLES");
+        const bool pairs = path.source == CornerSource::pairs;
+        defineIf(pairs, "PAIRS");
+        if (pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
+        defineIf(path.source == CornerSource::loop, "LOOP");
+        const bool owned = path.singleCover || (variant.blended && path.source != CornerSource::plain);
+        defineIf(owned, "OWNED");
+        if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
+        defineIf(variant.blended, "BLENDED");
         defineIf(variant.lit, "LIT");
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");
         // Pairs carry their facing and the hidden ones are never made; a plain draw has to look.
-        const bool checksFacing = !path.pairs && (variant.lit || variant.singleSided);
+        const bool checksFacing = !pairs && (variant.lit || variant.singleSided);
         defineIf(checksFacing, "CHECK_FACING");
-        defineIf(!path.pairs && variant.singleSided, "SINGLE_SIDED");
+        defineIf(!pairs && variant.singleSided, "SINGLE_SIDED");
         GlProgram program =
             makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
-        programs_.emplace(variant, Entry{std::move(program), checksFacing});
+        programs_.emplace(variant, Entry{std::move(program), checksFacing, owned});
     }
 }
 
@@ -57,7 +61,8 @@ ScenePrograms::Variant ScenePrograms::variantFor(const Material& material) const
     return {.lit = color && look_.style == Style::textured && !material.unlit,
             .textured = material.texture >= 0 && (color || masked),
             .masked = masked,
-            .singleSided = !material.doubleSided};
+            .singleSided = !material.doubleSided,
+            .blended = color && material.blending != Blending::none};
 }
 
 ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
@@ -66,18 +71,26 @@ ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
     glUseProgram(program);
     glProgramUniform4fv(program, 10, 1, &material.baseColor[0]);
     if (variant.masked) glProgramUniform1f(program, 11, material.alphaCutoff);
-    return {program, variant.textured};
+    return {program, variant.textured, variant.blended};
 }
 
-void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace) const {
+void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace,
+                             int firstOwnerLayer) const {
     for (const auto& [variant, entry] : programs_) {
         const GLuint program = entry.program.id();
         glProgramUniformMatrix3fv(program, 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
         glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
         glProgramUniform1f(program, 9, kNearFraction);
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
+        if (entry.owned) glProgramUniform1i(program, 17, firstOwnerLayer);
         if (entry.checksFacing) glProgramUniform1i(program, 12, frontIsClockwise);
     }
+}
+
+void ScenePrograms::setFacing(GLuint program, bool frontIsClockwise) const {
+    for (const auto& [variant, entry] : programs_)
+        if (entry.program.id() == program && entry.checksFacing)
+            glProgramUniform1i(program, 12, frontIsClockwise);
 }
 
 }  // namespace curvewall

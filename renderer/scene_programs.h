@@ -17,18 +17,18 @@ struct SceneLook {
     OutputKind output = OutputKind::color;
 };
 
-// Who may draw a pixel.
-enum class PixelRight {
-    all,       // every piece that reaches it
-    notHoles,  // nobody where it has no owner
-    owner,     // its owner alone: where each pixel must be covered once
+// How the corners reach the shader.
+enum class CornerSource {
+    plain,  // plain vertices, one piece for all
+    loop,   // plain vertices, the piece is a uniform
+    pairs,  // pulled by (triangle, piece) pairs
 };
 
-// How the corners reach the shader.
 struct GeometryPath {
-    bool pairs = false;  // (triangle, piece) pairs; otherwise one piece, plain vertices
+    CornerSource source = CornerSource::plain;
     int clipPlanes = 0;
-    PixelRight right = PixelRight::all;
+    bool singleCover = false;  // each pixel is its owner's alone; blended materials have that anyway
+    int ownerSamples = 1;      // owners that a pixel has in one pass
 
     bool operator==(const GeometryPath&) const = default;
 };
@@ -38,25 +38,32 @@ class ScenePrograms {
 public:
     ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path);
 
+    SceneLook look() const { return look_; }
+
     // Makes the material's program current with its constants set. Textures are the caller's.
     struct Chosen {
         GLuint program = 0;
         bool textured = false;
+        bool blended = false;
     };
     Chosen choose(const Material& material) const;
 
-    // Sets what is the same for all materials of a frame.
-    void setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace) const;
+    // Sets what is the same for all materials of a pass.
+    void setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace,
+                  int firstOwnerLayer) const;
+
+    // For one of its programs: how triangles seen from the front turn on the screen.
+    void setFacing(GLuint program, bool frontIsClockwise) const;
 
 private:
     struct Variant {
-        bool lit = false, textured = false, masked = false, singleSided = false;
+        bool lit = false, textured = false, masked = false, singleSided = false, blended = false;
         // clang-tidy 14 takes the 0 of the comparisons made from it for a pointer.
         auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
     };
     struct Entry {
         GlProgram program;
-        bool checksFacing = false;
+        bool checksFacing = false, owned = false;
     };
     Variant variantFor(const Material& material) const;
 

@@ -49,11 +49,6 @@ Camera decodeCamera(JsonFields fields) {
     return camera;
 }
 
-void decodeEngine(JsonFields& fields) {
-    const std::optional<std::string> engine = fields.text("engine");
-    if (engine && *engine != "compute") throw impossible("engine", "compute", describe(*engine));
-}
-
 void decodeFormat(JsonFields& fields, RenderCall& call) {
     const bool isColor = call.request.output == OutputKind::color;
     call.format = isColor ? ImageFormat::png : ImageFormat::exr;
@@ -84,7 +79,7 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
     }
     if (const auto eye = vector3(fields, "eye", kAnywhereM)) request.eyeM = *eye;
     readName(fields, "method", methodFromName, methodNames, request.method);
-    decodeEngine(fields);
+    readName(fields, "engine", engineFromName, engineNames, request.engine);
     request.tolerancePx = fields.number("tolerance_px", kTolerancePx).value_or(request.tolerancePx);
     readName(fields, "source", sourceFromName, sourceNames, request.source);
     readName(fields, "filter", filterFromName, filterNames, request.filter);

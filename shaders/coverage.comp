@@ -1,59 +1,25 @@
-// Which pieces does each triangle touch? Run twice a frame: COUNT, and after scan.comp EMIT, which writes the pairs in
-// scene order so that the same request draws the same picture. Lorenz and Doellner (2009), section 2.1, count in pass 1
-// and replicate in pass 2; here a tree over the pieces takes the place of their regular grid.
-
-#include "scene_geometry.glsl"
+// The fine level of coverage: which pieces does each triangle of a meshlet touch? Run twice a frame: COUNT, and after
+// scan.comp EMIT, which writes the pairs in scene order so that the same request draws the same picture. Lorenz and Doellner
+// (2009), section 2.1, count in pass 1 and replicate in pass 2; here a tree over the pieces takes the place of their regular
+// grid. One group a meshlet.
 
 layout(local_size_x = GROUP_SIZE) in;
 
-struct ConeNode {
-    vec4 planes[6];  // xyz: through the eye; zero beyond the last
-    uvec4 link;      // x: the node after this subtree, y: the piece of a leaf or NO_PIECE, z: how many planes
-};
-const uint NO_PIECE = 0xffffffffu;
+#include "piece_coverage.glsl"
+#include "meshlet.glsl"
+#include "group_prefix.glsl"
+
 const uint SEEN_FROM_BEHIND = 0x80000000u;
 const uint KEPT = 3u;  // pieces of a triangle that need no second walk; most triangles touch fewer
 
-layout(std430, binding = 2) readonly buffer Nodes { ConeNode nodes[]; };
-layout(std430, binding = 3) readonly buffer SingleSided { uint singleSided[]; };  // one bit a triangle
 layout(std430, binding = 4) buffer GroupPairs { uint groupPairs[]; };   // COUNT: pairs of a group; EMIT: its first
-layout(std430, binding = 5) buffer FirstPair { uint firstPair[]; };     // of each triangle, and of the one after the last
+layout(std430, binding = 5) readonly buffer MeshletNodes { uvec2 meshletNodes[]; };
 layout(std430, binding = 6) writeonly buffer Pairs { uvec2 pairs[]; };  // triangle and facing, piece
 layout(std430, binding = 7) buffer Found { uvec4 found[]; };            // KEPT pieces of each triangle, count and facing
+layout(std430, binding = 10) readonly buffer Seen { uint seen[]; };     // meshlets that show something
 
-layout(location = 2) uniform uint firstTriangle;
-layout(location = 3) uniform uint triangleCount;
-layout(location = 4) uniform uint nodeCount;
+layout(location = 3) uniform uint firstMeshlet;
 layout(location = 5) uniform uint capacity;  // of `pairs`; what lies beyond is drawn in another part
-
-shared uint sums[GROUP_SIZE];
-
-bool isBehind(vec3 plane, vec3 a, vec3 b, vec3 c) { return max(max(dot(plane, a), dot(plane, b)), dot(plane, c)) < 0.0; }
-
-// No loop to link.z: with one, llvmpipe (Mesa 22.3) does not come out of the loop in walk().
-bool outside(ConeNode node, vec3 a, vec3 b, vec3 c) {
-    for (int i = 0; i < 4; ++i) {
-        if (isBehind(node.planes[i].xyz, a, b, c)) return true;
-    }
-    if (node.link.z <= 4u) return false;
-    return isBehind(node.planes[4].xyz, a, b, c) || isBehind(node.planes[5].xyz, a, b, c);
-}
-
-vec3 cornerRay(uint triangle, uint corner) { return rayToVertex(corners[3u * triangle + corner]); }
-
-// Exclusive sum of `value` over the group.
-uint groupPrefix(uint value) {
-    uint self = gl_LocalInvocationIndex;
-    sums[self] = value;
-    barrier();
-    for (uint reach = 1u; reach < GROUP_SIZE; reach *= 2u) {
-        uint before = self >= reach ? sums[self - reach] : 0u;
-        barrier();
-        sums[self] += before;
-        barrier();
-    }
-    return sums[self] - value;
-}
 
 #ifdef COUNT
 uvec3 kept = uvec3(0u);  // the first pieces of this invocation's triangle
@@ -61,57 +27,46 @@ uvec3 kept = uvec3(0u);  // the first pieces of this invocation's triangle
 void take(uint piece, uint nth) {
     if (nth < KEPT) kept[nth] = piece;
 }
+
+// The triangle's pieces: how many, and in the highest bit its facing, which is a matter of the triangle and the eye and not
+// of any piece's screen.
+uint count(uint triangle, bool isSingleSided, uvec2 nodeRange) {
+    RayTriangle t = rayTriangleAt(triangle);
+    bool behind = t.facing > 0.0;
+    if (behind && isSingleSided) return 0u;
+    return walk(t, nodeRange.x, nodeRange.y) | (behind ? SEEN_FROM_BEHIND : 0u);
+}
 #else
-uint next;  // pair of this invocation's triangle
+uint next, most;  // pair of this invocation's triangle, and how many it has
 uint triangleAndFacing;
 
 void take(uint piece, uint nth) {
-    if (next + nth < capacity) pairs[next + nth] = uvec2(triangleAndFacing, piece);
+    if (nth < most && next + nth < capacity) pairs[next + nth] = uvec2(triangleAndFacing, piece);
 }
 #endif
 
-// Takes every piece that the triangle may touch, and counts them.
-uint walk(uint triangle) {
-    vec3 a = cornerRay(triangle, 0u), b = cornerRay(triangle, 1u), c = cornerRay(triangle, 2u);
-    uint count = 0u;
-    for (uint i = 0u; i < nodeCount;) {
-        if (outside(nodes[i], a, b, c)) {
-            i = nodes[i].link.x;
-            continue;
-        }
-        if (nodes[i].link.y != NO_PIECE) take(nodes[i].link.y, count++);
-        ++i;
-    }
-    return count;
-}
-
 void main() {
-    uint index = gl_GlobalInvocationID.x;
-    uint triangle = firstTriangle + index;
+    uint self = gl_LocalInvocationIndex, slot = gl_WorkGroupID.x * GROUP_SIZE + self;
+    uint index = seen[gl_WorkGroupID.x];
+    Meshlet m = meshlets[firstMeshlet + index];
+    bool isTriangle = self < m.triangleCount;
 #ifdef COUNT
-    uint count = 0u;
-    if (index < triangleCount) {
-        vec3 a = cornerRay(triangle, 0u), b = cornerRay(triangle, 1u), c = cornerRay(triangle, 2u);
-        // Facing is a property of the triangle and the eye, not of any piece's screen. This is det(a, b, c) without
-        // its cancellation, which gives a small triangle far away either sign.
-        bool behind = dot(a, cross(b - a, c - a)) > 0.0;
-        if (!behind || (singleSided[triangle / 32u] >> (triangle % 32u) & 1u) == 0u)
-            count = walk(triangle);
-        found[index] = uvec4(kept, count | (behind ? SEEN_FROM_BEHIND : 0u));
-    }
-    uint before = groupPrefix(count);
-    if (index < triangleCount) firstPair[index] = before;
-    if (gl_LocalInvocationIndex == GROUP_SIZE - 1u) groupPairs[gl_WorkGroupID.x] = before + count;
+    uint counted = isTriangle ? count(m.firstTriangle + self, m.isSingleSided != 0u, meshletNodes[index]) : 0u;
+    found[slot] = uvec4(kept, counted);
+    uint pairCount = counted & ~SEEN_FROM_BEHIND;
+    uint before = groupPrefix(pairCount);
+    if (self == GROUP_SIZE - 1u) groupPairs[gl_WorkGroupID.x] = before + pairCount;
 #else
-    if (index >= triangleCount) return;
-    next = firstPair[index] + groupPairs[gl_WorkGroupID.x];
-    firstPair[index] = next;
-    uint count = found[index].w & ~SEEN_FROM_BEHIND;
-    triangleAndFacing = triangle | (found[index].w & SEEN_FROM_BEHIND);
-    if (count > KEPT) {
-        walk(triangle);
+    uvec4 ofTriangle = found[slot];
+    most = ofTriangle.w & ~SEEN_FROM_BEHIND;
+    next = groupPairs[gl_WorkGroupID.x] + groupPrefix(most);
+    triangleAndFacing = (m.firstTriangle + self) | (ofTriangle.w & SEEN_FROM_BEHIND);
+    if (most > KEPT) {
+        // Two programs need not round alike: a piece that this walk misses is drawn as the one before it once more.
+        uint again = walk(rayTriangleAt(m.firstTriangle + self), meshletNodes[index].x, meshletNodes[index].y);
+        for (uint i = again; i < most; ++i) take(ofTriangle.x, i);
     } else {
-        for (uint i = 0u; i < count; ++i) take(found[index][i], i);
+        for (uint i = 0u; i < most; ++i) take(ofTriangle[i], i);
     }
 #endif
 }

@@ -6,21 +6,24 @@
 layout(local_size_x = 64) in;
 
 struct Range {
-    uint firstTriangle;  // within the part
-    uint triangleCount;
+    uint firstMeshlet;  // within the part
+    uint meshletCount;
 };
-layout(std430, binding = 2) readonly buffer Ranges { Range ranges[]; };
-layout(std430, binding = 3) writeonly buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = 5) readonly buffer FirstPair { uint firstPair[]; };
+layout(std430, binding = 4) readonly buffer GroupPairs { uint groupPairs[]; };  // the first pair of each meshlet seen
+layout(std430, binding = 11) readonly buffer PlaceOf { uint placeOf[]; };       // of each meshlet among those seen
+layout(std430, binding = 14) writeonly buffer Commands { DrawCommand commands[]; };
+layout(std430, binding = 15) readonly buffer Ranges { Range ranges[]; };
 
 layout(location = 5) uniform uint capacity;
 layout(location = 8) uniform uint rangeCount;
 
+uint firstPairOf(uint meshlet) { return min(groupPairs[placeOf[meshlet]], capacity); }
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= rangeCount) return;
-    uint first = min(firstPair[ranges[i].firstTriangle], capacity);
-    uint end = min(firstPair[ranges[i].firstTriangle + ranges[i].triangleCount], capacity);
+    uint first = firstPairOf(ranges[i].firstMeshlet);
+    uint end = firstPairOf(ranges[i].firstMeshlet + ranges[i].meshletCount);
     uint instances = (end - first + PAIRS_PER_INSTANCE - 1u) / PAIRS_PER_INSTANCE;
     commands[i] = DrawCommand(3u * PAIRS_PER_INSTANCE, instances, 3u * first, 0u, end);
 }

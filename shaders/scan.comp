@@ -1,14 +1,16 @@
-// Turns the pair counts of the coverage groups into the index of each group's first pair. One group runs.
+// Turns the counts of groups into the place of each group's first. One group runs. MESHLETS: of meshlets that show something,
+// for as many groups of coverage.comp; PAIRS: of the pairs of those groups.
 
 layout(local_size_x = GROUP_SIZE) in;
 
-layout(std430, binding = 4) buffer GroupPairs { uint groupPairs[]; };
-layout(std430, binding = 5) buffer FirstPair { uint firstPair[]; };
-layout(std430, binding = 3) writeonly buffer Totals { uint totals[]; };  // read by the CPU after the frame
-
-layout(location = 3) uniform uint triangleCount;
+layout(std430, binding = 4) buffer Counts { uint counts[]; };  // one more at the end becomes the sum of all
+layout(std430, binding = 12) buffer Dispatch { uint dispatch[3]; };
+#ifdef MESHLETS
 layout(location = 6) uniform uint groupCount;
+#else
+layout(std430, binding = 13) writeonly buffer Totals { uint totals[]; };  // read by the CPU after the frame
 layout(location = 7) uniform uint part;
+#endif
 
 shared uint sums[GROUP_SIZE];
 
@@ -16,11 +18,14 @@ shared uint sums[GROUP_SIZE];
 uint saturatingSum(uint a, uint b) { return a + b < a ? 0xffffffffu : a + b; }
 
 void main() {
+#ifndef MESHLETS
+    uint groupCount = dispatch[0];
+#endif
     uint self = gl_LocalInvocationIndex;
     uint share = (groupCount + GROUP_SIZE - 1u) / GROUP_SIZE;
     uint begin = min(self * share, groupCount), end = min(begin + share, groupCount);
     uint sum = 0u;
-    for (uint i = begin; i < end; ++i) sum = saturatingSum(sum, groupPairs[i]);
+    for (uint i = begin; i < end; ++i) sum = saturatingSum(sum, counts[i]);
     sums[self] = sum;
     barrier();
     for (uint reach = 1u; reach < GROUP_SIZE; reach *= 2u) {
@@ -31,12 +36,18 @@ void main() {
     }
     uint next = sums[self] - sum;
     for (uint i = begin; i < end; ++i) {
-        uint count = groupPairs[i];
-        groupPairs[i] = next;
+        uint count = counts[i];
+        counts[i] = next;
         next = saturatingSum(next, count);
     }
     if (self == GROUP_SIZE - 1u) {
+        counts[groupCount] = sums[self];
+#ifdef MESHLETS
+        dispatch[0] = sums[self];
+        dispatch[1] = 1u;
+        dispatch[2] = 1u;
+#else
         totals[part] = sums[self];
-        firstPair[triangleCount] = sums[self];
+#endif
     }
 }

@@ -11,9 +11,8 @@ layout(location = 2) in vec2 uv;
 #endif
 #ifdef OWNED
 layout(location = 3) flat in int ownPiece;
-#endif
-#if defined(OWNED) || defined(HOLES)
-layout(binding = 1) uniform isampler2D owners;  // the piece that owns each pixel, -1 in holes
+layout(binding = 1) uniform isampler2DArray owners;  // the piece that owns each sample, -1 in holes
+layout(location = 17) uniform int firstOwnerLayer;
 #endif
 
 #ifdef TEXTURED
@@ -29,10 +28,14 @@ layout(location = 0) out vec4 result;
 
 void main() {
 #ifdef OWNED
-    if (texelFetch(owners, ivec2(gl_FragCoord.xy), 0).r != ownPiece) discard;
+    int owned = 0;
+    for (int i = 0; i < OWNER_SAMPLES; ++i) {
+        if (texelFetch(owners, ivec3(gl_FragCoord.xy, firstOwnerLayer + i), 0).r == ownPiece) owned |= 1 << i;
+    }
+    if (owned == 0) discard;
+#if OWNER_SAMPLES > 1
+    gl_SampleMask[0] = owned;
 #endif
-#ifdef HOLES
-    if (texelFetch(owners, ivec2(gl_FragCoord.xy), 0).r < 0) discard;
 #endif
 #ifdef CHECK_FACING
     bool behind = gl_FrontFacing == frontIsClockwise;
@@ -63,6 +66,10 @@ void main() {
 #endif
     color *= lightOnSurface(n);
 #endif
+#ifdef BLENDED
+    result = vec4(color, base.a);
+#else
     result = vec4(color, 1.0);
+#endif
 #endif
 }

@@ -22,6 +22,10 @@ layout(location = 1) in vec4 vertexNormal;
 layout(location = 2) in vec2 vertexUv;
 #endif
 
+#ifdef LOOP
+layout(location = 18) uniform int piece;
+#endif
+
 layout(location = 0) out vec3 ray;
 #ifdef LIT
 layout(location = 1) out vec3 normal;
@@ -63,7 +67,11 @@ void main() {
     ownPiece = int(pair.y);
 #endif
 #else
+#ifdef LOOP
+    uint row = uint(piece * (3 + CLIP_PLANES));
+#else
     uint row = 0u;
+#endif
     ray = rayTo(vertexPosition);
 #ifdef LIT
     normal = vertexNormal.xyz;
@@ -72,7 +80,11 @@ void main() {
     uv = vertexUv;
 #endif
 #ifdef OWNED
+#ifdef LOOP
+    ownPiece = piece;
+#else
     ownPiece = 0;
+#endif
 #endif
 #endif
     gl_Position = vec4(dot(pieces[row].xyz, ray), dot(pieces[row + 1u].xyz, ray), nearFraction,

@@ -17,17 +17,23 @@
 namespace curvewall {
 namespace {
 
-constexpr int kFrames = 12;
 constexpr int kManyRays = 64;
 
-std::vector<int> hardwareSamples() {
+// How many samples, and how many frames are worth their time.
+struct Sampling {
+    int samples, frames;
+};
+
+// One a pixel, as many as the driver has, and passes beyond that.
+std::vector<Sampling> samplings() {
     const EglContext context;
     GLint most = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
-    std::vector<int> samples{1};
-    for (const int count : {4, 8})
-        if (count <= most) samples.push_back(count);
-    return samples;
+    std::vector<Sampling> samplings{{1, 12}};
+    for (const int samples : {4, 8})
+        if (samples <= most) samplings.push_back({samples, 4});
+    samplings.push_back({16, 2});
+    return samplings;
 }
 
 // What the exact projection shows at pixel centres, and over whole pixels.
@@ -55,7 +61,7 @@ void printRow(const RenderRequest& request, const Display& display, const Render
 }
 
 void compareOn(const WallPtr& wall, const Display& display, const ScenePtr& scene,
-               const std::vector<int>& sampleCounts) {
+               const std::vector<Sampling>& samplings) {
     RenderRequest base;
     base.wall = wall;
     base.display = display.name;
@@ -64,9 +70,14 @@ void compareOn(const WallPtr& wall, const Display& display, const ScenePtr& scen
     base.style = Style::unlit;
     Renderer renderer;
     const Truth truth = truthOf(renderer, base);
-    base.frames = kFrames;
-    for (const int samples : sampleCounts) {
-        for (const RenderRequest& request : settingsFor(base, samples)) {
+    for (const Sampling& sampling : samplings) {
+        base.samples = sampling.samples;
+        base.frames = sampling.frames;
+        for (const RenderRequest& request : settingsFor(base)) {
+            // Nearest is of no use for averages, and large pictures drawn many times over take minutes.
+            const bool isNearest = request.filter == SourceFilter::nearest;
+            if (sampling.samples > 1 && isNearest) continue;
+            if (sampling.samples > 4 && request.faceSizePx > 2048) continue;
             try {
                 printRow(request, display, renderer.render(request), truth);
             } catch (const UsageError&) {
@@ -78,12 +89,12 @@ void compareOn(const WallPtr& wall, const Display& display, const ScenePtr& scen
 
 void compare(const std::vector<std::string>& wallFiles) {
     const ScenePtr city = makeFlatCity();
-    const std::vector<int> samples = hardwareSamples();
+    const std::vector<Sampling> all = samplings();
     std::cout << "display,method,source,filter,tolerance_px,samples,face_px,pictures,max_error_px,frame_ms,"
                  "prepare_ms,wrong_share,psnr_db,supersampled_psnr_db\n";
     for (const std::string& file : wallFiles) {
         const auto wall = std::make_shared<const Wall>(readWall(file));
-        for (const Display& display : wall->displays) compareOn(wall, display, city, samples);
+        for (const Display& display : wall->displays) compareOn(wall, display, city, all);
     }
 }
 

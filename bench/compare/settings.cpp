@@ -18,20 +18,18 @@ RenderRequest imageBased(const RenderRequest& base, SourceKind source, SourceFil
 
 }  // namespace
 
-std::vector<RenderRequest> settingsFor(const RenderRequest& base, int samples) {
-    RenderRequest sampled = base;
-    sampled.samples = samples;
+std::vector<RenderRequest> settingsFor(const RenderRequest& base) {
     std::vector<RenderRequest> requests;
     for (const double tolerancePx : {1.0, 0.5, 0.25, 0.1, 0.05}) {
-        requests.push_back(sampled);
+        requests.push_back(base);
         requests.back().tolerancePx = tolerancePx;
     }
     for (const SourceFilter filter : {SourceFilter::nearest, SourceFilter::linear, SourceFilter::bicubic}) {
         for (const int faceSizePx : {512, 1024, 2048, 4096})
-            requests.push_back(imageBased(sampled, SourceKind::cube, filter, faceSizePx));
+            requests.push_back(imageBased(base, SourceKind::cube, filter, faceSizePx));
         // 0: the size that the display needs.
         for (const int faceSizePx : {0, 4096})
-            requests.push_back(imageBased(sampled, SourceKind::planar, filter, faceSizePx));
+            requests.push_back(imageBased(base, SourceKind::planar, filter, faceSizePx));
     }
     return requests;
 }

@@ -8,8 +8,8 @@
 
 namespace curvewall {
 
-// Requests that differ from `base` in their method and its settings, each with `samples`.
-std::vector<RenderRequest> settingsFor(const RenderRequest& base, int samples);
+// Requests that differ from `base` in their method and its settings.
+std::vector<RenderRequest> settingsFor(const RenderRequest& base);
 
 // The columns that tell which request it was: method, source, filter, tolerance_px, samples.
 std::string settingAsCsv(const RenderRequest& request);

@@ -49,13 +49,14 @@ private:
 
 }  // namespace
 
-Ownership::Ownership(const PieceMesh& mesh) : width_(mesh.sizePx.x) {
+Ownership::Ownership(const PieceMesh& mesh, glm::dvec2 sampleInPixel) : width_(mesh.sizePx.x) {
+    const GridPoint shift = gridPoint(glm::dvec2(0.5) - sampleInPixel);  // brings the sample to the centre
     polygons_.reserve(mesh.pieces.size());
     for (const Piece& piece : mesh.pieces) {
         Polygon& polygon = polygons_.emplace_back();
         int64_t top = std::numeric_limits<int64_t>::max(), bottom = std::numeric_limits<int64_t>::min();
         for (; polygon.count < piece.vertexCount; ++polygon.count) {
-            const GridPoint corner = gridPoint(mesh.vertices[piece.vertices[polygon.count]].s);
+            const GridPoint corner = gridPoint(mesh.vertices[piece.vertices[polygon.count]].s) + shift;
             polygon.corners[polygon.count] = corner;
             top = std::min(top, corner.y);
             bottom = std::max(bottom, corner.y);
@@ -91,8 +92,8 @@ void Ownership::fillRows(int fromRow, int endRow, int every, std::span<int32_t> 
     }
 }
 
-std::vector<int32_t> ownerImage(const PieceMesh& mesh) {
-    const Ownership ownership(mesh);
+std::vector<int32_t> ownerImage(const PieceMesh& mesh, glm::dvec2 sampleInPixel) {
+    const Ownership ownership(mesh, sampleInPixel);
     const auto width = static_cast<size_t>(mesh.sizePx.x);
     std::vector<int32_t> owners(width * static_cast<size_t>(mesh.sizePx.y));
     parallelRanges(mesh.sizePx.y, [&](int begin, int end) {

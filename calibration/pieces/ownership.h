@@ -12,13 +12,14 @@ namespace curvewall {
 
 inline constexpr int32_t kNoPiece = -1;
 
-// A pixel belongs to the piece that has its centre. Vertices are rounded to the grid of 1/256 px, and where
-// an edge crosses a row of centres follows from its two ends alone, in integers: pieces that share an edge
-// agree on every centre, also where rounding made them a little concave. A centre on an edge goes by the
-// top-left rule. Where pieces overlap (a fold), the later one owns.
+// A pixel belongs to the piece that has its centre, or another sample of it. Vertices are rounded to the grid
+// of 1/256 px, and where an edge crosses a row of centres follows from its two ends alone, in integers:
+// pieces that share an edge agree on every centre, also where rounding made them a little concave. A centre
+// on an edge goes by the top-left rule. Where pieces overlap (a fold), the later one owns.
 class Ownership {
 public:
-    explicit Ownership(const PieceMesh& mesh);
+    // `sampleInPixel` counts from the pixel's top left corner and is rounded to the grid.
+    explicit Ownership(const PieceMesh& mesh, glm::dvec2 sampleInPixel = glm::dvec2(0.5));
 
     // The owners, or kNoPiece, of the pixels in every `every`-th row and column: of rows `fromRow` up to but
     // not including `endRow` of that lattice, one after another.
@@ -36,6 +37,6 @@ private:
 };
 
 // The owners of all pixels, row by row from the top.
-std::vector<int32_t> ownerImage(const PieceMesh& mesh);
+std::vector<int32_t> ownerImage(const PieceMesh& mesh, glm::dvec2 sampleInPixel = glm::dvec2(0.5));
 
 }  // namespace curvewall

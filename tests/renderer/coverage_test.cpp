@@ -2,6 +2,7 @@
 
 #include "calibration/pieces/piece_fit.h"
 #include "renderer/frame_target.h"
+#include "renderer/pair_replicator.h"
 #include "renderer/piecewise.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gl_fixture.h"
@@ -28,8 +29,10 @@ protected:
         const FittedPieces fitted = fitPieces(*wall.displays[0].projection, {400, 300}, 0.25);
         const GpuPieces pieces = uploadPieces(fitted.mesh);
         const GpuScene scene = uploadScene(std::make_shared<const Scene>(loadScene("city:20000")));
-        Coverage coverage(scene, mostPairs);
-        PiecewiseRenderer renderer(scene, pieces, &coverage, {}, nullptr);
+        auto replicator = std::make_unique<PairReplicator>(scene.chunks, mostPairs);
+        const Coverage& coverage = replicator->coverage();
+        SceneReplicators replicators{Engine::compute, std::move(replicator), nullptr};
+        PiecewiseRenderer renderer(scene, pieces, &replicators, {});
         const FrameTarget target({400, 300}, {}, 1);
         Drawn drawn;
         for (std::optional<uint64_t> pairs; !pairs; ++drawn.attempts) {

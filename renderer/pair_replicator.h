@@ -1,0 +1,27 @@
+#pragma once
+// Draws the pairs that compute shaders have found: one indirect draw a material range, corners pulled from
+// the scene's buffers.
+
+#include "renderer/coverage.h"
+#include "renderer/replicator.h"
+
+namespace curvewall {
+
+class PairReplicator : public Replicator {
+public:
+    // `mostPairs` limits the pairs of a part below what the driver allows.
+    explicit PairReplicator(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u);
+
+    void draw(const PieceDraw& draw) override;
+    FrameOutcome finishFrame() override { return coverage_.finishFrame(); }
+
+    const Coverage& coverage() const { return coverage_; }
+
+private:
+    void drawPairs(const ScenePart& part, const PieceDraw& draw) const;
+
+    Coverage coverage_;
+    GlVertexArray emptyVertexArray_;
+};
+
+}  // namespace curvewall

@@ -1,0 +1,46 @@
+#pragma once
+// Draws triangles into all the pieces that they touch; one implementation an engine.
+
+#include "renderer/engine.h"
+#include "renderer/frame_pass.h"
+#include "renderer/gpu_pieces.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/material_binder.h"
+#include "renderer/scene_view.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace curvewall {
+
+// One pass over the pieces.
+struct PieceDraw {
+    const GpuPieces& pieces;
+    const SceneView& view;
+    const FramePass& pass;
+    const MaterialBinder& materials;
+};
+
+// After the GPU has finished a frame: how many (triangle, piece) pairs it had, and whether some found no
+// room. Then there is more room now, and the frame must be drawn again.
+struct FrameOutcome {
+    uint64_t pairCount = 0;
+    bool overflowed = false;
+};
+
+class Replicator {
+public:
+    virtual ~Replicator() = default;
+
+    // Records GL work only: nothing is read back, compiled, or allocated but where a scene that changes has
+    // outgrown its buffers.
+    virtual void draw(const PieceDraw& draw) = 0;
+
+    virtual FrameOutcome finishFrame() = 0;
+};
+
+// For the chunks of a scene that outlive it.
+std::unique_ptr<Replicator> makeReplicator(Engine engine, std::span<const SceneChunk> chunks);
+
+}  // namespace curvewall

@@ -1,0 +1,73 @@
+// The coarse level of coverage: which meshlets show something, and which part of the piece tree is theirs. MARK looks at
+// each, scan.comp counts, GATHER lists those that are left, in order.
+
+#include "scene_geometry.glsl"
+#include "piece_tree.glsl"
+#include "meshlet.glsl"
+
+layout(local_size_x = GROUP_SIZE) in;
+
+layout(std430, binding = 4) buffer GroupSeen { uint groupSeen[]; };  // MARK: how many of a group; GATHER: the first's place
+layout(std430, binding = 5) buffer MeshletNodes { uvec2 meshletNodes[]; };  // from x up to y; empty: it shows nothing
+layout(std430, binding = 10) writeonly buffer Seen { uint seen[]; };        // meshlets, in order
+layout(std430, binding = 11) buffer PlaceOf { uint placeOf[]; };  // of each meshlet and the one after the last, in `seen`
+
+layout(location = 3) uniform uint firstMeshlet;
+layout(location = 5) uniform uint meshletCount;
+
+#ifdef MARK
+#include "group_prefix.glsl"
+
+// Every triangle is seen from behind: meshoptimizer's test of the bounding sphere against the normal cone.
+bool isSeenFromBehind(Meshlet m, vec3 centre) {
+    if (m.isSingleSided == 0u) return false;
+    return dot(centre, wallFromScene * m.cone.xyz) >= m.cone.w * length(centre) + m.sphere.w;
+}
+
+bool isOutside(ConeNode node, vec3 centre, float radius) {
+    for (int i = 0; i < 6; ++i) {
+        if (dot(node.planes[i].xyz, centre) < -radius) return true;
+    }
+    return false;
+}
+
+uvec2 nodesTouched(vec3 centre, float radius) {
+    uvec2 touched = uvec2(nodeCount, 0u);
+    for (uint i = 0u; i < nodeCount;) {
+        if (isOutside(nodes[i], centre, radius)) {
+            i = nodes[i].link.x;
+            continue;
+        }
+        if (nodes[i].link.y != NO_PIECE) touched = uvec2(min(touched.x, i), i + 1u);
+        ++i;
+    }
+    return touched;
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    bool isSeen = false;
+    if (index < meshletCount) {
+        Meshlet m = meshlets[firstMeshlet + index];
+        vec3 centre = rayTo(m.sphere.xyz);
+        uvec2 touched = uvec2(0u);
+        // What the subtraction of the eye rounds off is a share of the distance.
+        if (!isSeenFromBehind(m, centre)) touched = nodesTouched(centre, m.sphere.w + 1e-6 * length(centre));
+        isSeen = touched.x < touched.y;
+        meshletNodes[index] = isSeen ? touched : uvec2(0u);
+    }
+    uint before = groupPrefix(isSeen ? 1u : 0u);
+    if (index < meshletCount) placeOf[index] = before;
+    if (gl_LocalInvocationIndex == GROUP_SIZE - 1u) groupSeen[gl_WorkGroupID.x] = before + (isSeen ? 1u : 0u);
+}
+#else
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= meshletCount) return;
+    uint place = placeOf[index] + groupSeen[gl_WorkGroupID.x];
+    placeOf[index] = place;
+    bool isSeen = meshletNodes[index].x < meshletNodes[index].y;
+    if (isSeen) seen[place] = index;
+    if (index + 1u == meshletCount) placeOf[meshletCount] = place + (isSeen ? 1u : 0u);
+}
+#endif
