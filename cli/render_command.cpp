@@ -24,8 +24,9 @@ namespace curvewall {
 namespace {
 
 struct RenderCommand {
-    std::string wall, display, scene, camera, eye, method = "piecewise", engine = "compute",
-                                                   style = "textured", outputKind = "color", out, stats;
+    std::string wall, display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube",
+                                                   filter = "linear", style = "textured",
+                                                   outputKind = "color", out, stats;
     double tolerancePx = kDefaultTolerancePx;
     int samples = 1, faceSizePx = 0, frames = 1;
 };
@@ -38,6 +39,8 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.output = outputKindFromName(command.outputKind).value();
     request.tolerancePx = command.tolerancePx;
     request.samples = command.samples;
+    request.source = sourceFromName(command.source).value();
+    request.filter = filterFromName(command.filter).value();
     request.faceSizePx = command.faceSizePx;
     request.frames = command.frames;
     if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
@@ -61,7 +64,8 @@ std::string summaryOf(const RenderStats& stats) {
         return fmt::format("{} pieces, error {:.4f} px at most, {:.2f} pairs a triangle", stats.pieces,
                            stats.geometricError.maxPx, stats.replicationRatio());
     if (stats.faces > 0)
-        return fmt::format("{} cube faces of {} px, error {:.4f} px at most", stats.faces, stats.faceSizePx,
+        return fmt::format("{} {} of {} px, error {:.4f} px at most", stats.faces,
+                           stats.faces == 1 ? "picture" : "pictures", stats.faceSizePx,
                            stats.geometricError.maxPx);
     return fmt::format("{} rays a pixel", stats.samples);
 }
@@ -120,12 +124,19 @@ void addRenderCommand(CLI::App& app) {
     render->add_option("--tolerance", command->tolerancePx, "Largest geometric error of piecewise, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
-    render->add_option("--samples", command->samples, "Samples a pixel of reference and piecewise")
+    render->add_option("--samples", command->samples, "Samples a pixel, or a texel of image-based")
         ->check(CLI::Range(1, kMostSamples))
+        ->capture_default_str();
+    render->add_option("--source", command->source, "What image-based resamples: " + sourceNames())
+        ->check(oneOf(sourceFromName, sourceNames()))
+        ->capture_default_str();
+    render->add_option("--filter", command->filter, "How image-based resamples: " + filterNames())
+        ->check(oneOf(filterFromName, filterNames()))
         ->capture_default_str();
     render
         ->add_option("--face-size", command->faceSizePx,
-                     "Cube face size of image-based, pixels; 0: from the display's densest place")
+                     "Side of a cube face or longer side of the planar source, pixels; 0: from the display's "
+                     "densest place")
         ->check(CLI::Validator(checkFaceSize, ""))
         ->capture_default_str();
     render->add_option("--style", command->style, styleNames())

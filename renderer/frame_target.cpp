@@ -53,6 +53,12 @@ void FrameTarget::end() const {
                            sizePx_.x, sizePx_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void FrameTarget::copyInto(GLuint framebuffer) const {
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glBlitNamedFramebuffer(framebuffer_.id(), framebuffer, 0, 0, sizePx_.x, sizePx_.y, 0, 0, sizePx_.x,
+                           sizePx_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 Frame FrameTarget::read() const {
     Frame frame{sizePx_, channelsOf(format_.output), {}};
     const size_t rowTexels = static_cast<size_t>(sizePx_.x) * static_cast<size_t>(frame.channels);

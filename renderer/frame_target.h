@@ -31,6 +31,8 @@ public:
     void begin(glm::vec3 background) const;
     // Resolves the samples, where there are any.
     void end() const;
+    // Copies the finished picture into a framebuffer of its size.
+    void copyInto(GLuint framebuffer) const;
 
     // Waits for the GPU. Never within a frame.
     Frame read() const;

@@ -1,45 +1,45 @@
 #pragma once
-// What installations run today: render a cube map, then resample it through the exact map, pixel by pixel. In
-// Lorenz and Doellner (2009), section 1.1, this is the image-based approach; SGCT renders fisheyes this way.
+// What installations run today: render a cube map or one wide picture, then resample it through the exact
+// map, pixel by pixel. In Lorenz and Doellner (2009), section 1.1, this is the image-based approach; SGCT
+// renders fisheyes this way.
 
-#include "renderer/frame_target.h"
+#include "renderer/face_pictures.h"
+#include "renderer/image_source.h"
 #include "renderer/piecewise.h"
+#include "renderer/resampler.h"
 
-#include <array>
 #include <memory>
 #include <vector>
 
 namespace curvewall {
 
+// A source for one display, on the GPU.
+struct GpuSource {
+    int faceSizePx = 0;
+    glm::ivec2 sizePx{0};          // of every picture
+    std::vector<GpuPieces> faces;  // each one piece
+    GlTexture places;
+};
+
+// The facets are `distanceM` from the eye, which places the near cut.
+GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double distanceM);
+
 class ImageBasedRenderer {
 public:
-    // Draws the faces in `faces` at `faceSizePx`; the facets are `distanceM` from the eye, which places the
-    // near cut. `rays` as displayRays gives them, `sizePx` their display's. The scene must outlive it.
-    ImageBasedRenderer(const GpuScene& scene, const std::vector<glm::vec4>& rays, glm::ivec2 sizePx,
-                       int faceSizePx, std::array<bool, 6> faces, double distanceM, SceneLook look,
-                       TargetFormat format);
+    // The programs must be those of pathThrough() a face. The scene and the source must outlive it.
+    ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs, const GpuScene& scene,
+                       const GpuSource& source);
 
     // Draws the faces, then the display into `target`. Records GL work only.
-    void record(const SceneView& view, const FrameTarget& target, glm::vec3 background);
+    void record(const SceneView& view, const FacePictures& pictures, const Resampler& resampler,
+                const FrameTarget& target, glm::vec3 background);
 
     uint64_t pairCount() const;  // triangles submitted a frame, over all faces
 
 private:
-    struct Face {
-        GpuPieces pieces;
-        GlFramebuffer framebuffer;
-        std::unique_ptr<PiecewiseRenderer> renderer;
-    };
-
     const GpuScene& scene_;
-    int faceSizePx_;
-    OutputKind output_;
-    GlTexture rays_, cube_;
-    GlSampler sampler_;
-    GlRenderbuffer depth_;
-    std::vector<Face> faces_;
-    GlProgram resample_;
-    GlVertexArray emptyVertexArray_;
+    const GpuSource& source_;
+    std::vector<PiecewiseRenderer> faces_;
 };
 
 }  // namespace curvewall

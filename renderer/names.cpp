@@ -18,6 +18,9 @@ constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
                                       {Engine::geometry, "geometry"},
                                       {Engine::tessellation, "tessellation"},
                                       {Engine::loop, "loop"}};
+constexpr Named<SourceKind> kSources[] = {{SourceKind::cube, "cube"}, {SourceKind::planar, "planar"}};
+constexpr Named<SourceFilter> kFilters[] = {
+    {SourceFilter::nearest, "nearest"}, {SourceFilter::linear, "linear"}, {SourceFilter::bicubic, "bicubic"}};
 constexpr Named<Style> kStyles[] = {{Style::textured, "textured"}, {Style::unlit, "unlit"}};
 constexpr Named<OutputKind> kOutputKinds[] = {{OutputKind::color, "color"},
                                               {OutputKind::depth, "depth"},
@@ -55,6 +58,8 @@ std::string allNames(const Named<Enum> (&table)[count]) {
 
 std::optional<Method> methodFromName(std::string_view name) { return fromName(kMethods, name); }
 std::optional<Engine> engineFromName(std::string_view name) { return fromName(kEngines, name); }
+std::optional<SourceKind> sourceFromName(std::string_view name) { return fromName(kSources, name); }
+std::optional<SourceFilter> filterFromName(std::string_view name) { return fromName(kFilters, name); }
 std::optional<Style> styleFromName(std::string_view name) { return fromName(kStyles, name); }
 std::optional<OutputKind> outputKindFromName(std::string_view name) { return fromName(kOutputKinds, name); }
 std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
@@ -63,12 +68,16 @@ std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
 
 std::string_view nameOf(Method method) { return toName(kMethods, method); }
 std::string_view nameOf(Engine engine) { return toName(kEngines, engine); }
+std::string_view nameOf(SourceKind source) { return toName(kSources, source); }
+std::string_view nameOf(SourceFilter filter) { return toName(kFilters, filter); }
 std::string_view nameOf(Style style) { return toName(kStyles, style); }
 std::string_view nameOf(OutputKind output) { return toName(kOutputKinds, output); }
 std::string_view nameOf(ImageFormat format) { return toName(kImageFormats, format); }
 
 std::string methodNames() { return allNames(kMethods); }
 std::string engineNames() { return allNames(kEngines); }
+std::string sourceNames() { return allNames(kSources); }
+std::string filterNames() { return allNames(kFilters); }
 std::string styleNames() { return allNames(kStyles); }
 std::string outputKindNames() { return allNames(kOutputKinds); }
 std::string imageFormatNames() { return allNames(kImageFormats); }

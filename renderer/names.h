@@ -1,6 +1,6 @@
 #pragma once
-// The words that the command line and the network use for methods, engines, styles, outputs and image
-// formats.
+// The words that the command line and the network use for methods, engines, sources, filters, styles, outputs
+// and image formats.
 
 #include "renderer/image_file.h"
 #include "renderer/look.h"
@@ -15,12 +15,16 @@ namespace curvewall {
 // Nothing when no such thing has that name.
 std::optional<Method> methodFromName(std::string_view name);
 std::optional<Engine> engineFromName(std::string_view name);
+std::optional<SourceKind> sourceFromName(std::string_view name);
+std::optional<SourceFilter> filterFromName(std::string_view name);
 std::optional<Style> styleFromName(std::string_view name);
 std::optional<OutputKind> outputKindFromName(std::string_view name);
 std::optional<ImageFormat> imageFormatFromName(std::string_view name);
 
 std::string_view nameOf(Method method);
 std::string_view nameOf(Engine engine);
+std::string_view nameOf(SourceKind source);
+std::string_view nameOf(SourceFilter filter);
 std::string_view nameOf(Style style);
 std::string_view nameOf(OutputKind output);
 std::string_view nameOf(ImageFormat format);
@@ -28,6 +32,8 @@ std::string_view nameOf(ImageFormat format);
 // Every name, for messages: "textured or unlit".
 std::string methodNames();
 std::string engineNames();
+std::string sourceNames();
+std::string filterNames();
 std::string styleNames();
 std::string outputKindNames();
 std::string imageFormatNames();

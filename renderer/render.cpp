@@ -5,22 +5,19 @@
 #include "calibration/stopwatch.h"
 #include "renderer/blended_target.h"
 #include "renderer/blending.h"
-#include "renderer/cube_faces.h"
 #include "renderer/gl/egl_context.h"
-#include "renderer/image_based.h"
 #include "renderer/names.h"
-#include "renderer/piecewise.h"
+#include "renderer/prepared_images.h"
+#include "renderer/prepared_scene.h"
 #include "renderer/recently_used.h"
 #include "renderer/reference.h"
 #include "renderer/sampled_target.h"
 
-#include <glm/geometric.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -62,54 +59,10 @@ struct PiecesKey {
     bool operator==(const PiecesKey&) const = default;
 };
 
-struct PreparedPieces {
-    GpuPieces gpu;
-    std::shared_ptr<const FittedPieces> fitted;
-    std::shared_ptr<const GpuOwners> owners;  // refits share them
-};
-
-struct DrawKey {
-    std::shared_ptr<PreparedPieces> pieces;
-    Engine engine;
-    Style style;
-    OutputKind output;
-    int samples;
-    bool operator==(const DrawKey&) const = default;
-};
-
 struct OwnersKey {
     OwnersPtr owners;
     int samples;
     bool operator==(const OwnersKey&) const = default;
-};
-
-// A renderer with what it refers to.
-struct PreparedDraw {
-    std::shared_ptr<const GpuOwners> sampleOwners;
-    PiecewiseRenderer renderer;
-};
-
-struct ProgramsKey {
-    Style style;
-    OutputKind output;
-    GeometryPath path;
-    bool operator==(const ProgramsKey&) const = default;
-};
-
-// A scene on the GPU with all that is made for it, so that it goes as one.
-struct PreparedScene {
-    explicit PreparedScene(const ScenePtr& scene) : gpu(uploadScene(scene)) {}
-
-    SceneReplicators& replicatorsFor(Engine engine) {
-        const auto [found, isNew] = replicators.try_emplace(engine);
-        if (isNew) found->second = makeReplicators(engine, gpu);
-        return found->second;
-    }
-
-    GpuScene gpu;
-    std::map<Engine, SceneReplicators> replicators;
-    RecentlyUsed<DrawKey, PreparedDraw> draws{16};
-    RecentlyUsed<ProgramsKey, const ScenePrograms> programs{16};
 };
 
 // Waits until the GPU has done everything recorded so far.
@@ -155,6 +108,7 @@ struct Renderer::Impl {
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
     RecentlyUsed<OwnersPtr, const GpuOwners> owners{16};
     RecentlyUsed<OwnersKey, const GpuOwners> sampleOwners{4};
+    PreparedImages images;
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
 
     std::shared_ptr<PreparedScene> preparedScene(const ScenePtr& scene) {
@@ -263,37 +217,41 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
 }
 
 RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Display& display) {
-    if (request.samples > 1)
-        throw UsageError("image-based takes one sample a pixel; a larger face size is its way to more");
     RenderResult result;
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
-    const std::vector<glm::vec4> rays = displayRays(display);
-    const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
-    const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);
-    const auto middle = display.projection->unproject(glm::dvec2(display.sizePx) / 2.0);
+    const auto source = images.source(request.wall, display, request.source, request.faceSizePx);
+    const auto renderer = scene->images.get({source, request.style, request.output}, [&] {
+        const GeometryPath onePiece;
+        return std::make_shared<ImageBasedRenderer>(
+            programsFor(*scene, {request.style, request.output}, onePiece), scene->gpu, source->gpu);
+    });
     const BlendedTarget blended = targetFor(request, display);
     const TargetFormat format = blended.pictureFormat();
-    ImageBasedRenderer renderer(scene->gpu, rays, display.sizePx, faceSizePx, faces,
-                                middle ? glm::length(*middle) : 1.0, {request.style, request.output}, format);
+    const int samples = request.output == OutputKind::color ? request.samples : 1;
+    const auto pictures = images.pictures(source->gpu, format, samples);
+    const SourceFilter filter = filterFor(request.output, request.filter);
+    const auto resampler = images.resampler(filter);
     const FrameTarget target(display.sizePx, format, 1);
     stats.prepareMs = preparing.ms();
 
     const auto draw = [&](const Camera& camera) {
-        renderer.record(sceneViewOf(camera, request.wall->eyeM, *request.scene), target,
-                        request.wall->background);
+        renderer->record(sceneViewOf(camera, request.wall->eyeM, *request.scene), *pictures, *resampler,
+                         target, request.wall->background);
         blended.record(target);
         waitForGpu();
     };
     measureFrames(
         request, draw, [&] { result.frame = blended.read(target); }, stats);
     stats.method = "image-based";
-    stats.engine = "cube";
-    stats.geometricError = errorOf(cubeError(display, rays, faceSizePx));
-    stats.pairs = renderer.pairCount();
-    stats.faceSizePx = faceSizePx;
-    stats.faces = static_cast<int>(std::ranges::count(faces, true));
+    stats.engine = nameOf(request.source);
+    stats.source = nameOf(request.source);
+    stats.filter = nameOf(filter);
+    stats.geometricError = errorOf(source->error);
+    stats.pairs = renderer->pairCount();
+    stats.faceSizePx = source->gpu.faceSizePx;
+    stats.faces = static_cast<int>(source->gpu.faces.size());
     return result;
 }
 

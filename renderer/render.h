@@ -5,6 +5,7 @@
 #include "renderer/camera.h"
 #include "renderer/engine.h"
 #include "renderer/frame.h"
+#include "renderer/image_source.h"
 #include "renderer/look.h"
 #include "renderer/request_limits.h"
 #include "renderer/scene/scene.h"
@@ -31,8 +32,10 @@ struct RenderRequest {
     double tolerancePx = kDefaultTolerancePx;  // piecewise
     // Of this display, seen from this eye, at this tolerance; without them the render fits them.
     std::shared_ptr<const FittedPieces> pieces{};
-    int faceSizePx = 0;  // image-based; 0: from the display's peak pixel density
-    int samples = 1;     // reference: rays per pixel; raster methods: MSAA samples
+    SourceKind source = SourceKind::cube;        // image-based, as are the next two
+    int faceSizePx = 0;                          // 0: from the display's peak pixel density
+    SourceFilter filter = SourceFilter::linear;  // of colour; other outputs take the nearest texel
+    int samples = 1;                             // reference: rays per pixel; raster methods: MSAA samples
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
     bool linearOutput = false;  // colour at float precision (EXR) rather than 8-bit sRGB

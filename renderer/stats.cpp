@@ -28,6 +28,10 @@ nlohmann::json toJson(const RenderStats& stats) {
     if (stats.method == "piecewise")
         json["certificate"] = {{"every", stats.certificateEvery},
                                {"full_age_ms", stats.fullCertificateAgeMs}};
+    if (stats.method == "image-based") {
+        json["source"] = stats.source;
+        json["filter"] = stats.filter;
+    }
     return json;
 }
 

@@ -17,16 +17,17 @@ struct GeometricError {
 
 struct RenderStats {
     std::string method;
-    std::string engine;      // "compute", "plain" (one piece: one plain draw), "cube", "embree"
+    std::string engine;      // "compute", "plain" (one piece: one plain draw), "cube", "planar", "embree"
     double tolerancePx = 0;  // piecewise
     GeometricError geometricError;
     int pieces = 0;
     int certificateEvery = 1;         // piecewise: the error is over every so many-th row and column
     double fullCertificateAgeMs = 0;  // piecewise: since the display was last certified at every pixel
-    int faceSizePx = 0;               // image-based
-    int faces = 0;                    // image-based: cube faces that the display sees
-    uint64_t triangles = 0;           // in the scene
-    uint64_t pairs = 0;               // (triangle, piece) pairs drawn in frame 0
+    std::string source, filter;       // image-based, as are the next two
+    int faceSizePx = 0;
+    int faces = 0;           // cube faces that the display sees, or the one planar picture
+    uint64_t triangles = 0;  // in the scene
+    uint64_t pairs = 0;      // (triangle, piece) pairs drawn in frame 0
     int samples = 1;
     int frames = 1;
     double frameMsMedian = 0;

@@ -81,6 +81,8 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
     readName(fields, "method", methodFromName, methodNames, request.method);
     readName(fields, "engine", engineFromName, engineNames, request.engine);
     request.tolerancePx = fields.number("tolerance_px", kTolerancePx).value_or(request.tolerancePx);
+    readName(fields, "source", sourceFromName, sourceNames, request.source);
+    readName(fields, "filter", filterFromName, filterNames, request.filter);
     if (const auto size = fields.wholeNumber("face_size", 0, kMostFacePx)) {
         if (*size != 0 && *size < kLeastFacePx)
             throw impossible("face_size", "0 or at least " + std::to_string(kLeastFacePx),
@@ -95,13 +97,19 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
     return names;
 }
 
+// Texels of the image-based method's pictures, at most: which size the display asks for is not known before
+// its rays are.
+uint64_t mostTexels(const RenderRequest& request) {
+    const bool isCube = request.source == SourceKind::cube;
+    const int automaticPx = isCube ? kMostAutomaticFacePx : kMostFacePx;
+    const auto sidePx = static_cast<uint64_t>(request.faceSizePx > 0 ? request.faceSizePx : automaticPx);
+    const uint64_t faces = isCube ? 6 : 1;
+    return faces * sidePx * sidePx;
+}
+
 void checkCost(const RenderRequest& request, const Display& display, uint64_t maxSamplesPerFrame) {
-    constexpr uint64_t kCubeFaces = 6;
-    const auto square = [](int side) { return static_cast<uint64_t>(side) * static_cast<uint64_t>(side); };
     const uint64_t pixels = static_cast<uint64_t>(display.sizePx.x) * static_cast<uint64_t>(display.sizePx.y);
-    // Which size the display asks for is not known before its rays are.
-    const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : kMostAutomaticFacePx;
-    const uint64_t drawn = request.method == Method::imageBased ? kCubeFaces * square(faceSizePx) : pixels;
+    const uint64_t drawn = request.method == Method::imageBased ? mostTexels(request) : pixels;
     const uint64_t samples = drawn * static_cast<uint64_t>(request.samples);
     if (samples > maxSamplesPerFrame)
         throw impossible("samples",

@@ -98,7 +98,7 @@ TEST_F(Blending, OnePieceAndManySamplesToo) {
     expectFormula(flatRequest(Method::piecewise, randomMaps(), test::planarWall(kSizePx, 80)));
     // Four are the hardware's, 65 are more than any driver has: shifted passes.
     for (const int samples : {4, 65})
-        for (const Method method : {Method::piecewise, Method::reference}) {
+        for (const Method method : kMethods) {
             RenderRequest request = flatRequest(method, randomMaps());
             request.samples = samples;
             expectFormula(request);

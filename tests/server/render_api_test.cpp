@@ -45,6 +45,8 @@ TEST(RenderApi, OnlyWallAndSceneAreNeeded) {
     EXPECT_EQ(request.method, Method::piecewise);
     EXPECT_EQ(request.tolerancePx, kDefaultTolerancePx);
     EXPECT_EQ(request.faceSizePx, 0);
+    EXPECT_EQ(request.source, SourceKind::cube);
+    EXPECT_EQ(request.filter, SourceFilter::linear);
     EXPECT_EQ(request.samples, 1);
     EXPECT_EQ(request.style, Style::textured);
     EXPECT_EQ(request.output, OutputKind::color);
@@ -57,7 +59,8 @@ TEST(RenderApi, EveryFieldIsTaken) {
         "wall": "small", "display": "right", "scene": "model",
         "camera": {"position": [1, -2.5, 3e3], "yaw_deg": 90, "pitch_deg": -45, "roll_deg": 180},
         "eye": [0.5, -1, 2],
-        "method": "image-based", "engine": "compute", "tolerance_px": 0.5, "face_size": 64, "samples": 4,
+        "method": "image-based", "engine": "compute", "tolerance_px": 0.5, "source": "planar",
+        "filter": "bicubic", "face_size": 64, "samples": 4,
         "style": "unlit", "output_kind": "position", "format": "exr"})");
     EXPECT_EQ(call.scene, "/scenes/model.glb");
     EXPECT_TRUE(call.cameraGiven);
@@ -72,6 +75,8 @@ TEST(RenderApi, EveryFieldIsTaken) {
     EXPECT_EQ(request.method, Method::imageBased);
     EXPECT_EQ(request.tolerancePx, 0.5);
     EXPECT_EQ(request.faceSizePx, 64);
+    EXPECT_EQ(request.source, SourceKind::planar);
+    EXPECT_EQ(request.filter, SourceFilter::bicubic);
     EXPECT_EQ(request.samples, 4);
     EXPECT_EQ(request.style, Style::unlit);
     EXPECT_EQ(request.output, OutputKind::position);
@@ -133,6 +138,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"method", 3}}, "method: expected a string, found 3"},
         Mistake{{{"engine", json::object()}}, "engine: expected a string, found an object"},
         Mistake{{{"tolerance_px", "0.25"}}, R"(tolerance_px: expected a number, found "0.25")"},
+        Mistake{{{"source", 6}}, "source: expected a string, found 6"},
+        Mistake{{{"filter", json::array()}}, "filter: expected a string, found a list"},
         Mistake{{{"face_size", 99.5}}, "face_size: expected a whole number, found 99.5"},
         Mistake{{{"samples", "4"}}, R"(samples: expected a whole number, found "4")"},
         Mistake{{{"style", false}}, "style: expected a string, found false"},
@@ -140,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"format", json::array()}}, "format: expected a string, found a list"},
         Mistake{{{"frames", 2}},
                 "expected only the keys wall, scene, display, camera, eye, method, engine, tolerance_px, "
-                "face_size, samples, style, output_kind, format, found the key \"frames\""}));
+                "source, filter, face_size, samples, style, output_kind, format, found the key \"frames\""}));
 
 class ImpossibleField : public ::testing::TestWithParam<Mistake> {};
 
@@ -171,6 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"tolerance_px", 0}}, "tolerance_px: expected a number from 0.001 to 100, found 0"},
         Mistake{{{"tolerance_px", 100.1}}, "tolerance_px: expected"},
         Mistake{{{"tolerance_px", -1}}, "tolerance_px: expected"},
+        Mistake{{{"source", "sphere"}}, R"(source: expected cube or planar, found "sphere")"},
+        Mistake{{{"filter", "cubic"}}, R"(filter: expected nearest, linear or bicubic, found "cubic")"},
         Mistake{{{"face_size", -1}}, "face_size: expected"},
         Mistake{{{"face_size", 15}}, "face_size: expected"},
         Mistake{{{"face_size", 8193}}, "face_size: expected"}, Mistake{{{"samples", 0}}, "samples: expected"},
@@ -195,6 +204,10 @@ TEST(RenderApi, OneFrameCostsNoMoreThanAllowed) {
     EXPECT_THROW(decode(bodyWith({{"method", "reference"}, {"samples", 201}})), UsageError);
     EXPECT_NO_THROW(decode(bodyWith({{"method", "image-based"}, {"face_size", 408}})));
     EXPECT_THROW(decode(bodyWith({{"method", "image-based"}, {"face_size", 409}})), UsageError);
+    json planar{{"method", "image-based"}, {"source", "planar"}, {"face_size", 1000}};
+    EXPECT_NO_THROW(decode(bodyWith(planar)));
+    planar["samples"] = 2;
+    EXPECT_THROW(decode(bodyWith(planar)), UsageError);
     EXPECT_THROW(decode(bodyWith({{"method", "image-based"}, {"face_size", 8192}, {"samples", 4096}})),
                  UsageError);
 }

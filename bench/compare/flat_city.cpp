@@ -1,0 +1,29 @@
+#include "bench/compare/flat_city.h"
+
+#include "renderer/image_file.h"
+#include "renderer/scene/city.h"
+
+namespace curvewall {
+namespace {
+
+glm::vec3 averageOf(const Texture& texture) {
+    const glm::u8vec4 texel = texture.levels.back().texels.front();
+    return {linearFromSrgbByte(texel.r), linearFromSrgbByte(texel.g), linearFromSrgbByte(texel.b)};
+}
+
+}  // namespace
+
+ScenePtr makeFlatCity() {
+    Scene city = makeCity();
+    for (Material& material : city.materials) {
+        if (material.texture < 0) continue;
+        const glm::vec3 average = averageOf(city.textures[static_cast<size_t>(material.texture)]);
+        material.baseColor *= glm::vec4(average, 1);
+        material.texture = -1;
+        material.alphaCutoff = -1;
+    }
+    city.textures.clear();
+    return std::make_shared<const Scene>(std::move(city));
+}
+
+}  // namespace curvewall
