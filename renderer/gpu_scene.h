@@ -16,6 +16,7 @@ struct SceneChunk {
     GlBuffer uvs;
     GlBuffer corners;      // three vertex indices a triangle
     GlBuffer singleSided;  // one bit a triangle
+    GlBuffer across;       // what lies beyond each triangle's edges; see gpu_edges.h
     GlVertexArray vertexArray;
     uint32_t triangleCount = 0;
     std::vector<MaterialRange> ranges;

@@ -4,9 +4,14 @@
 namespace curvewall {
 
 enum class Style {
-    textured,  // base colour, one sun, ambient
-    unlit,     // base colour alone
+    textured,   // base colour, one sun, ambient
+    unlit,      // base colour alone
+    wireframe,  // textured, with every triangle's edges
+    penAndInk,  // hatching for tones, outlines where shapes end or fold
 };
+
+// Lines along edges, whose widths are pixels of the picture drawn.
+constexpr bool drawsEdges(Style style) { return style == Style::wireframe || style == Style::penAndInk; }
 
 enum class OutputKind {
     color,

@@ -14,7 +14,10 @@ struct Named {
 
 constexpr Named<Method> kMethods[] = {
     {Method::piecewise, "piecewise"}, {Method::imageBased, "image-based"}, {Method::reference, "reference"}};
-constexpr Named<Style> kStyles[] = {{Style::textured, "textured"}, {Style::unlit, "unlit"}};
+constexpr Named<Style> kStyles[] = {{Style::textured, "textured"},
+                                    {Style::unlit, "unlit"},
+                                    {Style::wireframe, "wireframe"},
+                                    {Style::penAndInk, "pen-and-ink"}};
 constexpr Named<OutputKind> kOutputKinds[] = {{OutputKind::color, "color"},
                                               {OutputKind::depth, "depth"},
                                               {OutputKind::coverage, "coverage"},

@@ -30,7 +30,7 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
       emptyVertexArray_(makeVertexArray()) {}
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
-    programs_->setFrame(view, pieces_.frontIsClockwise, 2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx));
+    programs_->setFrame(view, pieces_, pass);
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     for (int i = 0; i < 8; ++i)
@@ -52,14 +52,28 @@ GLuint PiecewiseRenderer::bindMaterial(const Material& material) const {
     return chosen.program;
 }
 
+void PiecewiseRenderer::bindChunk(const SceneChunk& chunk) const {
+    bindStorage(0, chunk.positions);
+    bindStorage(1, chunk.corners);
+    bindStorage(3, chunk.normals);
+    bindStorage(4, chunk.uvs);
+    if (programs_->drawsEdges()) bindStorage(7, chunk.across);
+}
+
 void PiecewiseRenderer::recordPlain() {
     bindStorage(2, pieces_.pieces);
+    const bool pulls = programs_->drawsEdges();
     for (const SceneChunk& chunk : scene_.chunks) {
-        glBindVertexArray(chunk.vertexArray.id());
+        if (pulls) bindChunk(chunk);
+        glBindVertexArray(pulls ? emptyVertexArray_.id() : chunk.vertexArray.id());
         for (const MaterialRange& range : chunk.ranges) {
             bindMaterial(scene_.scene->materials[range.material]);
-            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * range.triangleCount), GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(size_t{12} * range.firstTriangle));
+            if (pulls)
+                glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * range.firstTriangle),
+                             static_cast<GLsizei>(3 * range.triangleCount));
+            else
+                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * range.triangleCount), GL_UNSIGNED_INT,
+                               reinterpret_cast<const void*>(size_t{12} * range.firstTriangle));
         }
     }
 }
@@ -70,11 +84,8 @@ void PiecewiseRenderer::recordPairs(const SceneView& view) {
         coverage_->findPairs(i, pieces_, view);
         glBindVertexArray(emptyVertexArray_.id());
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, coverage_->commands().id());
-        bindStorage(0, part.chunk->positions);
-        bindStorage(1, part.chunk->corners);
+        bindChunk(*part.chunk);
         bindStorage(2, pieces_.pieces);
-        bindStorage(3, part.chunk->normals);
-        bindStorage(4, part.chunk->uvs);
         bindStorage(5, coverage_->commands());
         bindStorage(6, coverage_->pairs());
         for (size_t r = 0; r < part.ranges.size(); ++r) {

@@ -38,6 +38,7 @@ public:
 private:
     void recordPlain();
     void recordPairs(const SceneView& view);
+    void bindChunk(const SceneChunk& chunk) const;        // what corners are pulled from
     GLuint bindMaterial(const Material& material) const;  // the program that is current then
 
     const GpuScene& scene_;

@@ -7,6 +7,7 @@
 #include "renderer/blending.h"
 #include "renderer/cube_faces.h"
 #include "renderer/gl/egl_context.h"
+#include "renderer/gpu_edges.h"
 #include "renderer/image_based.h"
 #include "renderer/piecewise.h"
 #include "renderer/recently_used.h"
@@ -181,6 +182,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
+    if (drawsEdges(request.style)) uploadEdges(scene->gpu);
     const auto prepared = preparedPieces(request, display);
     const auto renderer = scene->draws.get({prepared, request.style, request.output}, [&] {
         const SceneLook look{request.style, request.output};
@@ -231,6 +233,7 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
+    if (drawsEdges(request.style)) uploadEdges(scene->gpu);
     const std::vector<glm::vec4> rays = displayRays(display);
     const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
     const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);

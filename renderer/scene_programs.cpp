@@ -2,6 +2,7 @@
 
 #include "renderer/coverage.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +26,8 @@ std::string outputDefine(OutputKind output) {
 
 }  // namespace
 
-ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path) : look_(look) {
+ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
+    : look_(look), drawsEdges_(look.output == OutputKind::color && curvewall::drawsEdges(look.style)) {
     for (const Material& material : scene.materials) {
         const Variant variant = variantFor(material);
         if (programs_.contains(variant)) continue;
@@ -38,6 +40,8 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         if (path.pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.right == PixelRight::owner, "OWNED");
         defineIf(path.right == PixelRight::notHoles, "HOLES");
+        defineIf(drawsEdges_, "EDGES");
+        defineIf(look.style == Style::wireframe, "WIREFRAME");
         defineIf(variant.lit, "LIT");
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");
@@ -54,7 +58,7 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
 ScenePrograms::Variant ScenePrograms::variantFor(const Material& material) const {
     const bool color = look_.output == OutputKind::color;
     const bool masked = material.alphaCutoff >= 0;
-    return {.lit = color && look_.style == Style::textured && !material.unlit,
+    return {.lit = color && look_.style != Style::unlit && !material.unlit,
             .textured = material.texture >= 0 && (color || masked),
             .masked = masked,
             .singleSided = !material.doubleSided};
@@ -69,14 +73,17 @@ ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
     return {program, variant.textured};
 }
 
-void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace) const {
+void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const {
+    const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(pieces.sizePx);
+    const glm::vec3 sampling(pass.shiftPx, std::exp2(pass.lodBias));
     for (const auto& [variant, entry] : programs_) {
         const GLuint program = entry.program.id();
         glProgramUniformMatrix3fv(program, 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
         glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
         glProgramUniform1f(program, 9, kNearFraction);
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
-        if (entry.checksFacing) glProgramUniform1i(program, 12, frontIsClockwise);
+        if (entry.checksFacing) glProgramUniform1i(program, 12, pieces.frontIsClockwise);
+        if (drawsEdges_) glProgramUniform3fv(program, 15, 1, &sampling[0]);
     }
 }
 

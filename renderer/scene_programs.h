@@ -1,6 +1,7 @@
 #pragma once
 // The variants of scene.vert and scene.frag that a look needs, compiled before the first frame.
 
+#include "renderer/frame_pass.h"
 #include "renderer/gl/program.h"
 #include "renderer/gpu_pieces.h"
 #include "renderer/look.h"
@@ -46,7 +47,10 @@ public:
     Chosen choose(const Material& material) const;
 
     // Sets what is the same for all materials of a frame.
-    void setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace) const;
+    void setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const;
+
+    // Corners are pulled from the scene's buffers, for a plain draw too: lines need to know whose they are.
+    bool drawsEdges() const { return drawsEdges_; }
 
 private:
     struct Variant {
@@ -61,6 +65,7 @@ private:
     Variant variantFor(const Material& material) const;
 
     SceneLook look_;
+    bool drawsEdges_;
     std::map<Variant, Entry> programs_;
 };
 
