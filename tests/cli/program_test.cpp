@@ -228,7 +228,7 @@ TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
              {render + "--tolerance nan", 2, "--tolerance"},
              {render + "--face-size 15", 2, "--face-size"},
              {render + "--method magic", 2, "piecewise, image-based or reference"},
-             {render + "--style cubist", 2, "textured or unlit"},
+             {render + "--style cubist", 2, "textured, unlit, wireframe or pen-and-ink"},
              {render + "--engine loop", 2, "compute"},
              {render + "--display middle", 2, "left, right"},
              {render + "--camera 1,2", 2, "x,y,z"},
