@@ -34,7 +34,7 @@ std::vector<uint32_t> firstAtTheSamePlace(std::span<const glm::vec3> positions) 
 struct Edge {
     uint32_t low, high;  // the places that it joins
     uint32_t triangle;
-    uint32_t side;  // the corner that it lies opposite to
+    int side;  // the corner that it lies opposite to
 
     auto place() const { return std::tie(low, high); }
 };
@@ -49,7 +49,7 @@ public:
         std::vector<Edge> edges;
         edges.reserve(3 * triangles_.size());
         for (uint32_t triangle = 0; triangle < triangles_.size(); ++triangle)
-            for (uint32_t side = 0; side < 3; ++side) {
+            for (int side = 0; side < 3; ++side) {
                 const glm::uvec3 corners = triangles_[triangle];
                 const auto [low, high] =
                     std::minmax({first[corners[(side + 1) % 3]], first[corners[(side + 2) % 3]]});
@@ -107,7 +107,8 @@ std::vector<EdgeNeighbour> edgeNeighbours(std::span<const glm::vec3> positions,
         const std::span<const Edge> all(begin, end);
         if (all.size() <= kMostAtAnEdge)
             for (const Edge& edge : all)
-                neighbours[3 * size_t{edge.triangle} + edge.side] = flattestNeighbour(mesh, edge, all);
+                neighbours[3 * size_t{edge.triangle} + static_cast<size_t>(edge.side)] =
+                    flattestNeighbour(mesh, edge, all);
         begin = end;
     }
     return neighbours;

@@ -230,7 +230,7 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
     if (options.samples < 1) throw UsageError("the reference needs at least one sample a pixel");
     const bool isColor = options.output == OutputKind::color;
     std::optional<EdgeStrokes> strokes;
-    if (isColor && drawsEdges(options.style)) strokes.emplace(*impl_->scene, options.style);
+    if (drawsEdges(options.style, options.output)) strokes.emplace(*impl_->scene, options.style);
     const View view{*display.projection,
                     rotationFromOrientation(camera.orientation),
                     eyeInScene(camera, wall.eyeM) - impl_->scene->originM,

@@ -182,7 +182,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
-    if (drawsEdges(request.style)) uploadEdges(scene->gpu);
+    if (drawsEdges(request.style, request.output)) uploadEdges(scene->gpu);
     const auto prepared = preparedPieces(request, display);
     const auto renderer = scene->draws.get({prepared, request.style, request.output}, [&] {
         const SceneLook look{request.style, request.output};
@@ -233,7 +233,7 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
-    if (drawsEdges(request.style)) uploadEdges(scene->gpu);
+    if (drawsEdges(request.style, request.output)) uploadEdges(scene->gpu);
     const std::vector<glm::vec4> rays = displayRays(display);
     const int faceSizePx = request.faceSizePx > 0 ? request.faceSizePx : faceSizeFor(display, rays);
     const std::array<bool, 6> faces = facesSeen(rays, faceSizePx);

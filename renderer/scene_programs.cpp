@@ -27,7 +27,7 @@ std::string outputDefine(OutputKind output) {
 }  // namespace
 
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
-    : look_(look), drawsEdges_(look.output == OutputKind::color && curvewall::drawsEdges(look.style)) {
+    : look_(look), drawsEdges_(curvewall::drawsEdges(look.style, look.output)) {
     for (const Material& material : scene.materials) {
         const Variant variant = variantFor(material);
         if (programs_.contains(variant)) continue;

@@ -1,5 +1,6 @@
 // A triangle's corner on the screen of one piece: H r, with w = 1 on the facet. PAIRS pulls the corner of a
-// (triangle, piece) pair; without it one piece serves the whole display and corners come as plain vertices.
+// (triangle, piece) pair; without it one piece serves the whole display and corners come as plain vertices, but for EDGES,
+// which has to know what triangle they are of.
 
 #include "draw_command.glsl"
 #include "scene_geometry.glsl"
