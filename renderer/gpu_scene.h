@@ -41,6 +41,7 @@ struct SceneChunk {
     GlBuffer uvs;
     GlBuffer corners;   // three vertex indices a triangle, meshlet by meshlet
     GlBuffer meshlets;  // GpuMeshlet
+    GlBuffer across;    // what lies beyond each triangle's edges; see gpu_edges.h
     GlVertexArray vertexArray;
     uint32_t triangleCount = 0;
     uint32_t meshletCount = 0;

@@ -61,9 +61,7 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
     if (holesProgram_) closeHoles();
-    programs_->setFrame(view, pieces_.frontIsClockwise.front(),
-                        2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx),
-                        owners_.ofSamples ? pass.firstSample : 0);
+    programs_->setFrame(view, pieces_, pass);
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     enableClipPlanes(pieces_.clipPlanes);

@@ -2,9 +2,9 @@
 // Draws a scene as one plain perspective picture, without what lies outside it.
 
 #include "renderer/replicator.h"
+#include "renderer/triangle_runs.h"
 
 #include <array>
-#include <vector>
 
 namespace curvewall {
 
@@ -21,13 +21,11 @@ public:
 
 private:
     bool isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneView& view) const;
-    void addRun(uint32_t firstTriangle, uint32_t triangleCount);
+    void add(uint32_t firstTriangle, uint32_t triangleCount);
     void findRuns(const SceneChunk& chunk, const ChunkRange& range, const SceneView& view);
 
     std::array<glm::vec3, 4> sides_;  // planes through the eye, length one, and the sides of the picture
-    // Runs of triangles for glMultiDrawElements.
-    std::vector<GLsizei> indexCounts_;
-    std::vector<const void*> firstIndices_;
+    TriangleRuns runs_;
     uint64_t triangleCount_ = 0;
 };
 
