@@ -44,13 +44,11 @@ public:
         const std::string image = textureNameOf(source, aiTextureType_DIFFUSE);
         const std::string mask = textureNameOf(source, aiTextureType_OPACITY);
         if (!image.empty()) material.texture = texture(image);
-        if (opacity < 1 || (!mask.empty() && mask == image)) {
-            material.alphaCutoff = 0.5f;
-            scene_.notes.push_back("material \"" + material.name +
-                                   "\": transparency is drawn as a cutoff at 0.5");
-        } else if (!mask.empty()) {
+        // A dissolve map is read where it is the alpha of the colour map, as exporters write it for leaves.
+        const bool hasMask = !mask.empty() && mask == image;
+        if (opacity < 1 || hasMask) material.blending = Blending::alpha;
+        if (!mask.empty() && !hasMask)
             scene_.notes.push_back("material \"" + material.name + "\": map_d is ignored");
-        }
         scene_.materials.push_back(std::move(material));
     }
 

@@ -335,13 +335,37 @@ TEST(Gltf, RefusesAMissingTextureOnlyIfItIsDrawn) {
                 HasSubstr("images[0].uri: expected an image file, found no readable file \"gone.png\""));
 }
 
-TEST(Gltf, DrawsBlendAsMaskAndSaysSo) {
+TEST(Gltf, ReadsHowAMaterialBlends) {
     Document document = triangleDocument();
     document.root["meshes"][0]["primitives"][0]["material"] = 0;
-    document.root["materials"] = {{{"name", "water"}, {"alphaMode", "BLEND"}}};
-    const Scene scene = load(document.gltf());
-    EXPECT_FLOAT_EQ(scene.materials[0].alphaCutoff, 0.5f);
-    EXPECT_THAT(scene.notes, Contains(HasSubstr("\"water\": alphaMode BLEND is drawn as MASK")));
+    const auto blendingOf = [&](const json& material) {
+        document.root["materials"] = {material};
+        const Scene scene = load(document.gltf());
+        EXPECT_LT(scene.materials[0].alphaCutoff, 0) << "nothing is cut off";
+        EXPECT_TRUE(scene.notes.empty());
+        return scene.materials[0].blending;
+    };
+    EXPECT_EQ(blendingOf({{"name", "stone"}}), Blending::none);
+    EXPECT_EQ(blendingOf({{"alphaMode", "BLEND"}}), Blending::alpha);
+    EXPECT_EQ(blendingOf({{"alphaMode", "BLEND"}, {"extras", {{"author", "me"}}}}), Blending::alpha);
+    EXPECT_EQ(blendingOf({{"alphaMode", "BLEND"}, {"extras", {{"blending", "additive"}}}}),
+              Blending::additive);
+}
+
+TEST(Gltf, RefusesABlendingItDoesNotKnow) {
+    Document document = triangleDocument();
+    document.root["meshes"][0]["primitives"][0]["material"] = 0;
+    const auto refusalOf = [&](const json& material) {
+        document.root["materials"] = {material};
+        return refusal(document.gltf());
+    };
+    EXPECT_THAT(refusalOf({{"alphaMode", "BLEND"}, {"extras", {{"blending", "screen"}}}}),
+                HasSubstr("materials[0].extras.blending: expected \"additive\", found \"screen\""));
+    EXPECT_THAT(refusalOf({{"alphaMode", "BLEND"}, {"extras", {{"blending", 1}}}}),
+                HasSubstr("materials[0].extras.blending: expected \"additive\", found no text"));
+    EXPECT_THAT(refusalOf({{"extras", {{"blending", "additive"}}}}),
+                HasSubstr("materials[0].alphaMode: expected BLEND, because"));
+    EXPECT_THAT(refusalOf({{"alphaMode", "GLASS"}}), HasSubstr("expected OPAQUE, MASK or BLEND"));
 }
 
 TEST(Gltf, NotesWhatItDoesNotDraw) {

@@ -58,6 +58,28 @@ TEST(Obj, ReadsColourAndTexture) {
         << "row 0 is the image's top";
 }
 
+TEST(Obj, DissolvesByAlpha) {
+    const test::TemporaryFolder folder;
+    const auto sceneWith = [&](const std::string& lines) {
+        folder.write("square.mtl", "newmtl red\n" + lines);
+        return loadScene(folder.write("square.obj", kSquare));
+    };
+    const auto blendingIn = [](const Scene& scene) {
+        const Material& material = scene.materials[scene.ranges[0].material];
+        EXPECT_LT(material.alphaCutoff, 0) << "nothing is cut off";
+        return material.blending;
+    };
+    EXPECT_EQ(blendingIn(sceneWith("d 1\n")), Blending::none);
+    const Scene half = sceneWith("d 0.5\n");
+    EXPECT_EQ(blendingIn(half), Blending::alpha);
+    EXPECT_EQ(half.materials[half.ranges[0].material].baseColor.a, 0.5f);
+    EXPECT_TRUE(half.notes.empty());
+    EXPECT_EQ(blendingIn(sceneWith("map_Kd leaf.png\nmap_d leaf.png\n")), Blending::alpha);
+    const Scene other = sceneWith("map_Kd leaf.png\nmap_d mask.png\n");
+    EXPECT_EQ(blendingIn(other), Blending::none);
+    EXPECT_THAT(other.notes, Contains(HasSubstr("map_d is ignored")));
+}
+
 TEST(Obj, NotesAMissingTexture) {
     const test::TemporaryFolder folder;
     folder.write("square.mtl", "newmtl red\nKd 1 0 0\nmap_Kd gone.png\n");
