@@ -127,12 +127,15 @@ glm::vec4 baseColorAt(const Scene& scene, const Material& material, const EyeTri
     return material.baseColor * sampleTexture(texture, uv, level);
 }
 
-bool hidesNothing(const Material& material) { return material.doubleSided && material.alphaCutoff < 0; }
+// Whether a ray ends wherever it meets the material's triangles.
+bool isSolid(const Material& material) {
+    return material.doubleSided && material.alphaCutoff < 0 && material.blending == Blending::none;
+}
 
 // False where the material is discarded: seen from behind, or more transparent than its cutoff.
 bool isDrawn(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
     const Material& material = materialOf(scene, hit.triangle);
-    if (hidesNothing(material)) return true;
+    if (isSolid(material)) return true;
     const EyeTriangle triangle(scene, hit.triangle, view.eyeM);
     if (!material.doubleSided && !triangle.facesEye()) return false;
     if (material.alphaCutoff < 0) return true;
@@ -140,31 +143,42 @@ bool isDrawn(const Scene& scene, const View& view, const SampleRay& ray, const R
     return baseColorAt(scene, material, triangle, view, ray.px, weights).a >= material.alphaCutoff;
 }
 
-glm::vec3 colorOf(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit,
+// Linear light, straight alpha.
+glm::vec4 colorOf(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit,
                   Style style) {
     const EyeTriangle triangle(scene, hit.triangle, view.eyeM);
     const Material& material = materialOf(scene, hit.triangle);
     const glm::dvec3 weights = triangle.weightsAt(distanceTo(triangle, ray, hit) * ray.inScene.direction);
-    const glm::vec3 base(baseColorAt(scene, material, triangle, view, ray.px, weights));
+    const glm::vec4 base = baseColorAt(scene, material, triangle, view, ray.px, weights);
     if (style == Style::unlit || material.unlit) return base;
     const glm::vec3 normal(glm::normalize(triangle.interpolate(scene.normals, weights)));
-    return base * shading::lightOnSurface(triangle.facesEye() ? normal : -normal);
+    return base * glm::vec4(shading::lightOnSurface(triangle.facesEye() ? normal : -normal), 1);
 }
 
-// A ray through an edge meets the triangles on both sides there; that is one crossing of one surface.
-int countCrossings(const Scene& scene, const View& view, const std::vector<RayHit>& hits) {
+bool shareCorner(const Scene& scene, uint32_t a, uint32_t b) {
+    for (glm::length_t i = 0; i < 3; ++i)
+        for (glm::length_t k = 0; k < 3; ++k)
+            if (scene.positions[scene.triangles[a][i]] == scene.positions[scene.triangles[b][k]]) return true;
+    return false;
+}
+
+// A ray through an edge meets the triangles on both sides there; that is one crossing of one surface, and
+// the first triangle of the scene stands for it.
+void keepCrossings(const Scene& scene, const View& view, std::vector<RayHit>& hits) {
     const auto facesEye = [&](const RayHit& hit) {
         return EyeTriangle(scene, hit.triangle, view.eyeM).facesEye();
     };
     const auto sameCrossing = [&](const RayHit& a, const RayHit& b) {
-        return a.onEdge && b.onEdge && std::abs(a.distanceM - b.distanceM) <= 1e-6f * a.distanceM &&
-               facesEye(a) == facesEye(b);
+        return b.onEdge && std::abs(a.distanceM - b.distanceM) <= 1e-6f * a.distanceM &&
+               shareCorner(scene, a.triangle, b.triangle) && facesEye(a) == facesEye(b);
     };
-    int crossings = 0;
-    for (auto hit = hits.begin(); hit != hits.end(); ++hit)
-        if (std::none_of(hits.begin(), hit, [&](const RayHit& other) { return sameCrossing(*hit, other); }))
-            ++crossings;
-    return crossings;
+    std::ranges::sort(hits, {}, &RayHit::triangle);
+    std::vector<RayHit> crossings;
+    for (const RayHit& hit : hits)
+        if (!hit.onEdge ||
+            std::ranges::none_of(crossings, [&](const RayHit& known) { return sameCrossing(hit, known); }))
+            crossings.push_back(hit);
+    hits = std::move(crossings);
 }
 
 }  // namespace
@@ -172,23 +186,58 @@ int countCrossings(const Scene& scene, const View& view, const std::vector<RayHi
 struct ReferenceRenderer::Impl {
     ScenePtr scene;
     RayScene rays;
-    bool hasHoles;  // some material hides less than its triangles cover
+    bool isAllSolid;
 
     explicit Impl(ScenePtr shown)
-        : scene(std::move(shown)),
-          rays(*scene),
-          hasHoles(!std::all_of(scene->materials.begin(), scene->materials.end(), hidesNothing)) {}
+        : scene(std::move(shown)), rays(*scene), isAllSolid(std::ranges::all_of(scene->materials, isSolid)) {}
 
-    std::optional<RayHit> nearest(const View& view, const SampleRay& ray) const {
-        if (!hasHoles) return rays.nearestHit(ray.inScene, nullptr);
-        return rays.nearestHit(ray.inScene,
-                               [&](const RayHit& hit) { return isDrawn(*scene, view, ray, hit); });
+    // The nearest surface that hides what is behind it. What is drawn of those that let it through, farther
+    // ones among them, goes to `through`.
+    std::optional<RayHit> nearest(const View& view, const SampleRay& ray,
+                                  std::vector<RayHit>* through = nullptr) const {
+        if (isAllSolid) return rays.nearestHit(ray.inScene, nullptr);
+        return rays.nearestHit(ray.inScene, [&](const RayHit& hit) {
+            const bool hides = materialOf(*scene, hit.triangle).blending == Blending::none;
+            if ((!hides && !through) || !isDrawn(*scene, view, ray, hit)) return false;
+            if (!hides) through->push_back(hit);
+            return hides;
+        });
     }
 
     glm::vec3 color(const View& view, glm::dvec2 px, Style style, glm::vec3 background) const {
         const std::optional<SampleRay> ray = sampleRay(view, px);
-        const std::optional<RayHit> hit = ray ? nearest(view, *ray) : std::nullopt;
-        return hit ? colorOf(*scene, view, *ray, *hit, style) : background;
+        if (!ray) return background;
+        std::vector<RayHit> through;
+        const std::optional<RayHit> hit = nearest(view, *ray, &through);
+        const glm::vec3 behind = hit ? glm::vec3(colorOf(*scene, view, *ray, *hit, style)) : background;
+        if (through.empty()) return behind;
+        return colorThrough(view, *ray, std::move(through), hit, style, behind);
+    }
+
+    // What a ray sees through surfaces in front of `end`, where it is stopped, of which it sees `behind`.
+    glm::vec3 colorThrough(const View& view, const SampleRay& ray, std::vector<RayHit> hits,
+                           const std::optional<RayHit>& end, Style style, glm::vec3 behind) const {
+        const auto distance = [&](const RayHit& hit) {
+            return distanceTo(EyeTriangle(*scene, hit.triangle, view.eyeM), ray, hit);
+        };
+        keepCrossings(*scene, view, hits);
+        std::vector<std::pair<double, RayHit>> nearToFar;
+        const double endM = end ? distance(*end) : std::numeric_limits<double>::infinity();
+        for (const RayHit& hit : hits)
+            if (const double m = distance(hit); m < endM) nearToFar.emplace_back(m, hit);
+        // Of two at one place the later in the scene lies on the other.
+        std::ranges::sort(nearToFar, [](const auto& a, const auto& b) {
+            return a.first != b.first ? a.first < b.first : a.second.triangle > b.second.triangle;
+        });
+        glm::vec3 sum(0);
+        float shareSeen = 1;  // of what is behind
+        for (const auto& [m, hit] : nearToFar) {
+            const glm::vec4 color = colorOf(*scene, view, ray, hit, style);
+            const float alpha = std::clamp(color.a, 0.0f, 1.0f);
+            sum += shareSeen * alpha * glm::vec3(color);
+            if (materialOf(*scene, hit.triangle).blending == Blending::alpha) shareSeen *= 1 - alpha;
+        }
+        return sum + shareSeen * behind;
     }
 
     std::optional<glm::dvec3> position(const View& view, glm::dvec2 px) const {
@@ -203,7 +252,8 @@ struct ReferenceRenderer::Impl {
         if (!ray) return 0;
         std::vector<RayHit> hits = rays.allHits(ray->inScene);
         std::erase_if(hits, [&](const RayHit& hit) { return !isDrawn(*scene, view, *ray, hit); });
-        return countCrossings(*scene, view, hits);
+        keepCrossings(*scene, view, hits);
+        return static_cast<int>(hits.size());
     }
 };
 
