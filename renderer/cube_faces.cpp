@@ -33,14 +33,6 @@ bool isRay(const glm::vec4& ray) { return ray.w != 0; }
 // The densest pixels that a face need not resolve: at the pole of a map of longitudes density has no bound.
 constexpr double kDenseShare = 0.01;
 
-// Whether the display's right border shows what its left border shows, so that errors are counted around.
-bool isClosed(const Display& display) {
-    const double middle = 0.5 * display.sizePx.y;
-    const auto left = display.projection->unproject({0, middle});
-    const auto right = display.projection->unproject({display.sizePx.x, middle});
-    return left && right && glm::distance(glm::normalize(*left), glm::normalize(*right)) < 1e-9;
-}
-
 }  // namespace
 
 std::vector<glm::vec4> displayRays(const Display& display) {
@@ -127,7 +119,7 @@ Certificate cubeError(const Display& display, const std::vector<glm::vec4>& rays
     std::vector<float> errors(rays.size(), std::numeric_limits<float>::quiet_NaN());
     const std::vector<int32_t> owners(rays.size(), 0);
     const glm::ivec2 sizePx = display.sizePx;
-    const bool closed = isClosed(display);
+    const bool closed = closesOnItself(display);
     parallelRanges(sizePx.y, [&](int begin, int end) {
         for (int y = begin; y < end; ++y) {
             for (int x = 0; x < sizePx.x; ++x) {

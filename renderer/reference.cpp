@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/parallel.h"
+#include "renderer/projected_strokes.h"
 #include "renderer/ray_scene.h"
 #include "renderer/sample_pattern.h"
 #include "renderer/shading.h"
@@ -25,8 +26,9 @@ constexpr double kNearShareOfWall = 1e-5;
 struct View {
     const Projection& projection;
     glm::dmat3 sceneFromWall;
-    glm::dvec3 eyeM;     // relative to the scene's origin
-    double footprintPx;  // side of the square that one sample stands for
+    glm::dvec3 eyeM;                            // relative to the scene's origin
+    double footprintPx;                         // side of the square that one sample stands for
+    const ProjectedStrokes* strokes = nullptr;  // where the scene has any
 };
 
 struct SampleRay {
@@ -155,6 +157,60 @@ glm::vec4 colorOf(const Scene& scene, const View& view, const SampleRay& ray, co
     return base * glm::vec4(shading::lightOnSurface(triangle.facesEye() ? normal : -normal), 1);
 }
 
+glm::vec4 baseColorAt(const Scene& scene, const Material& material, const View& view,
+                      const StrokePlace& place) {
+    if (material.texture < 0) return material.baseColor;
+    const Texture& texture = scene.textures[static_cast<size_t>(material.texture)];
+    const glm::uvec2 ends = verticesOf(scene, place.stroke);
+    const glm::dvec2 from(scene.uvs[ends.x]), way = glm::dvec2(scene.uvs[ends.y]) - from;
+    const glm::dvec2 step = view.footprintPx * place.alongPerPx;
+    const double level = levelOfDetail(texture.levels.front().sizePx, step.x * way, step.y * way);
+    return material.baseColor * sampleTexture(texture, from + place.along * way, level);
+}
+
+glm::vec4 colorOf(const Scene& scene, const View& view, const StrokePlace& place, Style style) {
+    const Material& material = strokeMaterialOf(scene, place.stroke);
+    const glm::vec4 base = baseColorAt(scene, material, view, place);
+    if (style == Style::unlit || material.unlit) return base;
+    const glm::uvec2 ends = verticesOf(scene, place.stroke);
+    const glm::vec3 normal = glm::mix(scene.normals[ends.x], scene.normals[ends.y], place.along);
+    return base * glm::vec4(shading::lightOnSurface(glm::normalize(normal)), 1);
+}
+
+// The strokes that show at a sample, in the order of the scene.
+std::vector<StrokePlace> strokesAt(const Scene& scene, const View& view, const SampleRay& ray) {
+    if (!view.strokes) return {};
+    std::vector<StrokePlace> places = view.strokes->at(ray.px);
+    std::erase_if(places, [&](const StrokePlace& place) {
+        const Material& material = strokeMaterialOf(scene, place.stroke);
+        return glm::length(place.fromEyeM) < ray.inScene.nearM ||
+               (material.alphaCutoff >= 0 &&
+                baseColorAt(scene, material, view, place).a < material.alphaCutoff);
+    });
+    return places;
+}
+
+// Something that a ray passes through.
+struct Layer {
+    double distanceM;
+    glm::vec4 color;
+    Blending blending;
+};
+
+// What a ray sees through layers, of which the nearer of two at one place comes later.
+glm::vec3 seenThrough(std::vector<Layer> layers, glm::vec3 behind) {
+    std::ranges::reverse(layers);
+    std::ranges::stable_sort(layers, {}, &Layer::distanceM);
+    glm::vec3 sum(0);
+    float shareSeen = 1;  // of what is behind
+    for (const Layer& layer : layers) {
+        const float alpha = std::clamp(layer.color.a, 0.0f, 1.0f);
+        sum += shareSeen * alpha * glm::vec3(layer.color);
+        if (layer.blending == Blending::alpha) shareSeen *= 1 - alpha;
+    }
+    return sum + shareSeen * behind;
+}
+
 bool shareCorner(const Scene& scene, uint32_t a, uint32_t b) {
     for (glm::length_t i = 0; i < 3; ++i)
         for (glm::length_t k = 0; k < 3; ++k)
@@ -204,47 +260,63 @@ struct ReferenceRenderer::Impl {
         });
     }
 
+    double distanceOf(const View& view, const SampleRay& ray, const RayHit& hit) const {
+        return distanceTo(EyeTriangle(*scene, hit.triangle, view.eyeM), ray, hit);
+    }
+
+    // The nearest stroke that hides what is behind it, where it is nearer than the surface.
+    const StrokePlace* nearest(const std::vector<StrokePlace>& strokes, double surfaceM) const {
+        const StrokePlace* best = nullptr;
+        for (const StrokePlace& place : strokes) {
+            const double distanceM = glm::length(place.fromEyeM);
+            if (strokeMaterialOf(*scene, place.stroke).blending != Blending::none || distanceM >= surfaceM)
+                continue;
+            best = &place;
+            surfaceM = distanceM;
+        }
+        return best;
+    }
+
     glm::vec3 color(const View& view, glm::dvec2 px, Style style, glm::vec3 background) const {
         const std::optional<SampleRay> ray = sampleRay(view, px);
         if (!ray) return background;
         std::vector<RayHit> through;
         const std::optional<RayHit> hit = nearest(view, *ray, &through);
-        const glm::vec3 behind = hit ? glm::vec3(colorOf(*scene, view, *ray, *hit, style)) : background;
-        if (through.empty()) return behind;
-        return colorThrough(view, *ray, std::move(through), hit, style, behind);
-    }
+        const std::vector<StrokePlace> strokes = strokesAt(*scene, view, *ray);
+        if (through.empty() && strokes.empty())
+            return hit ? glm::vec3(colorOf(*scene, view, *ray, *hit, style)) : background;
 
-    // What a ray sees through surfaces in front of `end`, where it is stopped, of which it sees `behind`.
-    glm::vec3 colorThrough(const View& view, const SampleRay& ray, std::vector<RayHit> hits,
-                           const std::optional<RayHit>& end, Style style, glm::vec3 behind) const {
-        const auto distance = [&](const RayHit& hit) {
-            return distanceTo(EyeTriangle(*scene, hit.triangle, view.eyeM), ray, hit);
-        };
-        keepCrossings(*scene, view, hits);
-        std::vector<std::pair<double, RayHit>> nearToFar;
-        const double endM = end ? distance(*end) : std::numeric_limits<double>::infinity();
-        for (const RayHit& hit : hits)
-            if (const double m = distance(hit); m < endM) nearToFar.emplace_back(m, hit);
-        // Of two at one place the later in the scene lies on the other.
-        std::ranges::sort(nearToFar, [](const auto& a, const auto& b) {
-            return a.first != b.first ? a.first < b.first : a.second.triangle > b.second.triangle;
-        });
-        glm::vec3 sum(0);
-        float shareSeen = 1;  // of what is behind
-        for (const auto& [m, hit] : nearToFar) {
-            const glm::vec4 color = colorOf(*scene, view, ray, hit, style);
-            const float alpha = std::clamp(color.a, 0.0f, 1.0f);
-            sum += shareSeen * alpha * glm::vec3(color);
-            if (materialOf(*scene, hit.triangle).blending == Blending::alpha) shareSeen *= 1 - alpha;
+        double endM = hit ? distanceOf(view, *ray, *hit) : std::numeric_limits<double>::infinity();
+        const StrokePlace* const front = nearest(strokes, endM);
+        if (front) endM = glm::length(front->fromEyeM);
+        const glm::vec3 behind = front ? glm::vec3(colorOf(*scene, view, *front, style))
+                                 : hit ? glm::vec3(colorOf(*scene, view, *ray, *hit, style))
+                                       : background;
+        keepCrossings(*scene, view, through);
+        std::vector<Layer> layers;
+        for (const RayHit& layer : through)
+            if (const double m = distanceOf(view, *ray, layer); m < endM)
+                layers.push_back({m, colorOf(*scene, view, *ray, layer, style),
+                                  materialOf(*scene, layer.triangle).blending});
+        for (const StrokePlace& layer : strokes) {
+            const Blending blending = strokeMaterialOf(*scene, layer.stroke).blending;
+            if (const double m = glm::length(layer.fromEyeM); m < endM && blending != Blending::none)
+                layers.push_back({m, colorOf(*scene, view, layer, style), blending});
         }
-        return sum + shareSeen * behind;
+        return seenThrough(std::move(layers), behind);
     }
 
+    // Relative to the eye, wall axes.
     std::optional<glm::dvec3> position(const View& view, glm::dvec2 px) const {
         const std::optional<SampleRay> ray = sampleRay(view, px);
-        const std::optional<RayHit> hit = ray ? nearest(view, *ray) : std::nullopt;
+        if (!ray) return std::nullopt;
+        const std::optional<RayHit> hit = nearest(view, *ray);
+        const double hitM = hit ? distanceOf(view, *ray, *hit) : std::numeric_limits<double>::infinity();
+        const std::vector<StrokePlace> strokes = strokesAt(*scene, view, *ray);
+        if (const StrokePlace* const front = nearest(strokes, hitM))
+            return glm::transpose(view.sceneFromWall) * front->fromEyeM;
         if (!hit) return std::nullopt;
-        return distanceTo(EyeTriangle(*scene, hit->triangle, view.eyeM), *ray, *hit) * ray->directionInWall;
+        return hitM * ray->directionInWall;
     }
 
     int coverage(const View& view, glm::dvec2 px) const {
@@ -253,7 +325,7 @@ struct ReferenceRenderer::Impl {
         std::vector<RayHit> hits = rays.allHits(ray->inScene);
         std::erase_if(hits, [&](const RayHit& hit) { return !isDrawn(*scene, view, *ray, hit); });
         keepCrossings(*scene, view, hits);
-        return static_cast<int>(hits.size());
+        return static_cast<int>(hits.size() + strokesAt(*scene, view, *ray).size());
     }
 };
 
@@ -266,9 +338,13 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
                                 const Options& options) const {
     if (options.samples < 1) throw UsageError("the reference needs at least one sample a pixel");
     const bool isColor = options.output == OutputKind::color;
-    const View view{*display.projection, rotationFromOrientation(camera.orientation),
-                    eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
-                    isColor ? 1 / std::sqrt(options.samples) : 1.0};
+    View view{*display.projection, rotationFromOrientation(camera.orientation),
+              eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
+              isColor ? 1 / std::sqrt(options.samples) : 1.0};
+    std::optional<ProjectedStrokes> strokes;
+    if (!impl_->scene->points.empty() || !impl_->scene->lines.empty())
+        view.strokes =
+            &strokes.emplace(*impl_->scene, display, view.sceneFromWall, view.eyeM, options.threads);
 
     Frame frame{display.sizePx, channelsOf(options.output), {}};
     const auto width = static_cast<size_t>(frame.sizePx.x), channels = static_cast<size_t>(frame.channels);
