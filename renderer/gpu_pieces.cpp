@@ -18,22 +18,13 @@ struct GpuConeNode {
 };
 static_assert(sizeof(GpuConeNode) == 112);
 
-bool isOnBorder(glm::dvec2 a, glm::dvec2 b, glm::dvec2 size) {
-    for (int axis = 0; axis < 2; ++axis)
-        if (a[axis] == b[axis] && (a[axis] <= 0 || a[axis] >= size[axis])) return true;
-    return false;
-}
-
 // Edge planes that the display's own border does not already clip by.
 std::vector<glm::dvec3> innerEdgePlanes(const PieceMesh& mesh, const Piece& piece) {
     const std::vector<glm::dvec3> all = edgePlanes(mesh, piece);
     std::vector<glm::dvec3> inner;
     const std::vector<PieceEdge> edges = edgesOf(mesh, piece);
-    for (size_t i = 0; i < edges.size(); ++i) {
-        const glm::dvec2 from = mesh.vertices[piece.vertices[edges[i].from]].s;
-        const glm::dvec2 to = mesh.vertices[piece.vertices[edges[i].to]].s;
-        if (!isOnBorder(from, to, mesh.sizePx)) inner.push_back(all[i]);
-    }
+    for (size_t i = 0; i < edges.size(); ++i)
+        if (!isOnBorder(mesh, piece, edges[i])) inner.push_back(all[i]);
     return inner;
 }
 
@@ -53,9 +44,9 @@ std::vector<glm::vec4> pieceRows(const PieceMesh& mesh, size_t clipPlanes) {
     return rows;
 }
 
-std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
+std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh, double guardPx) {
     std::vector<GpuConeNode> nodes;
-    for (const ConeNode& node : buildPieceTree(mesh)) {
+    for (const ConeNode& node : buildPieceTree(mesh, guardPx)) {
         GpuConeNode& gpu = nodes.emplace_back();
         for (size_t i = 0; i < kMostPieceEdges; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
         gpu.link = {node.next, static_cast<uint32_t>(node.piece), node.planeCount, 0};
@@ -65,7 +56,7 @@ std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
 
 }  // namespace
 
-GpuPieces uploadPieces(const PieceMesh& mesh) {
+GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     GpuPieces gpu;
     gpu.sizePx = mesh.sizePx;
     gpu.pieceCount = static_cast<int>(mesh.pieces.size());
@@ -73,7 +64,7 @@ GpuPieces uploadPieces(const PieceMesh& mesh) {
         gpu.clipPlanes = std::max(gpu.clipPlanes, static_cast<int>(innerEdgePlanes(mesh, piece).size()));
     gpu.frontIsClockwise = glm::determinant(mesh.pieces.front().screenFromRay) > 0;
     gpu.pieces = makeBuffer(std::span<const glm::vec4>(pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes))));
-    const std::vector<GpuConeNode> nodes = gpuNodes(mesh);
+    const std::vector<GpuConeNode> nodes = gpuNodes(mesh, guardPx);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
     return gpu;

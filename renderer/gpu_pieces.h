@@ -19,7 +19,8 @@ struct GpuPieces {
     GlBuffer nodes;  // the piece tree
 };
 
-GpuPieces uploadPieces(const PieceMesh& mesh);
+// `guardPx` is how far beyond its edges the tree still finds a piece.
+GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx = kGuardPx);
 
 // The owner of every pixel; see calibration/pieces/ownership.h.
 struct GpuOwners {

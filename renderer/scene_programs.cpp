@@ -7,7 +7,6 @@
 #include <vector>
 
 namespace curvewall {
-namespace {
 
 std::string outputDefine(OutputKind output) {
     switch (output) {
@@ -22,8 +21,6 @@ std::string outputDefine(OutputKind output) {
     }
     return {};
 }
-
-}  // namespace
 
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path) : look_(look) {
     for (const Material& material : scene.materials) {

@@ -9,6 +9,7 @@
 
 #include <compare>
 #include <map>
+#include <string>
 
 namespace curvewall {
 
@@ -16,6 +17,9 @@ struct SceneLook {
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
 };
+
+// What tells a fragment shader the output.
+std::string outputDefine(OutputKind output);
 
 // Who may draw a pixel.
 enum class PixelRight {
