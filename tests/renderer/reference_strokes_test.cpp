@@ -216,6 +216,7 @@ TEST(ReferenceStrokes, TexturesAndNormalsAreInterpolatedAlongTheLine) {
     Scene scene;
     const Texture ramp = squareTexture(4, [](int, int size) {
         std::vector<glm::u8vec4> texels;
+        texels.reserve(static_cast<size_t>(size) * static_cast<size_t>(size));
         for (int i = 0; i < size * size; ++i)
             texels.push_back(i % size < size / 2 ? glm::u8vec4(255, 0, 0, 255) : glm::u8vec4(0, 0, 255, 255));
         return texels;
@@ -253,6 +254,7 @@ TEST(ReferenceStrokes, ThePictureDoesNotDependOnTheThreads) {
     test::Random random(5);
     Scene scene = boxRoom({8, 5, 6});
     std::vector<std::array<glm::vec3, 2>> lines;
+    lines.reserve(200);
     for (int i = 0; i < 200; ++i) lines.push_back({near(random), near(random)});
     Material glass = plainMaterial({0, 1, 0});
     glass.baseColor.a = 0.5f;
