@@ -2,6 +2,8 @@
 
 #include "calibration/errors.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 
 namespace curvewall {
@@ -28,6 +30,13 @@ const Display& findDisplay(const Wall& wall, std::string_view name) {
     for (const Display& display : wall.displays) names += (names.empty() ? "" : ", ") + display.name;
     throw UsageError("wall \"" + wall.name + "\" has no display \"" + std::string(name) + "\"; it has " +
                      names);
+}
+
+bool closesOnItself(const Display& display) {
+    const double middle = 0.5 * display.sizePx.y;
+    const auto left = display.projection->unproject({0, middle});
+    const auto right = display.projection->unproject({display.sizePx.x, middle});
+    return left && right && glm::distance(glm::normalize(*left), glm::normalize(*right)) < 1e-9;
 }
 
 }  // namespace curvewall

@@ -38,4 +38,7 @@ Wall seenFrom(const Wall& wall, glm::dvec3 eyeM);
 // The display of that name, or the first one when the name is empty. Throws UsageError that lists the names.
 const Display& findDisplay(const Wall& wall, std::string_view name);
 
+// Whether the display's right border shows what its left border shows, as on a full turn.
+bool closesOnItself(const Display& display);
+
 }  // namespace curvewall

@@ -132,10 +132,10 @@ void Coverage::allocate() {
     totals_ = static_cast<const volatile uint32_t*>(
         glMapNamedBufferRange(totalsBuffer_.id(), 0, static_cast<GLsizeiptr>(totalBytes), kMapping));
     if (!totals_) throw std::runtime_error("OpenGL could not map a buffer");
+    glClearNamedBufferData(totalsBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
-void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view,
-                         const FramePass& pass) {
+void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid) {
     const ScenePart& part = parts_[index];
     bindStorage(0, part.chunk->positions);
     bindStorage(1, part.chunk->corners);
@@ -164,7 +164,6 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
         setView(*program, view);
         glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
     }
-    const glm::vec4 sampleGrid = sampleGridOf(pieces, pass);
     for (const GlProgram* program : {&count_, &emit_}) {
         glProgramUniform1ui(program->id(), 15, static_cast<GLuint>(3 + pieces.clipPlanes));
         glProgramUniform4fv(program->id(), 16, 1, &sampleGrid[0]);
@@ -195,8 +194,9 @@ FrameOutcome Coverage::finishFrame() {
         needed = std::max<uint64_t>(needed, totalOf(i));
     }
     outcome.overflowed = needed > capacity_;
-    if (!outcome.overflowed) return outcome;
     if (needed > mostPairs_) splitParts();
+    glClearNamedBufferData(totalsBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    if (!outcome.overflowed) return outcome;
     capacity_ = static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, mostPairs_));
     allocate();
     return outcome;

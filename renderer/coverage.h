@@ -44,8 +44,9 @@ public:
     // Before the parts of a frame. Buffers grow here where a chunk that changes has outgrown them.
     void beginFrame();
 
-    // Leaves the pairs and one indirect draw command a range in pairs() and commands().
-    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, const FramePass& pass);
+    // Leaves the pairs and one indirect draw command a range in pairs() and commands(). What lies between the
+    // points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing out.
+    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid);
     const GlBuffer& pairs() const { return pairs_; }
     const GlBuffer& commands() const { return commands_; }
 

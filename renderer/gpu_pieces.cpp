@@ -20,22 +20,13 @@ struct GpuConeNode {
 };
 static_assert(sizeof(GpuConeNode) == 112);
 
-bool isOnBorder(glm::dvec2 a, glm::dvec2 b, glm::dvec2 size) {
-    for (int axis = 0; axis < 2; ++axis)
-        if (a[axis] == b[axis] && (a[axis] <= 0 || a[axis] >= size[axis])) return true;
-    return false;
-}
-
 // Edge planes that the display's own border does not already clip by.
 std::vector<glm::dvec3> innerEdgePlanes(const PieceMesh& mesh, const Piece& piece) {
     const std::vector<glm::dvec3> all = edgePlanes(mesh, piece);
     std::vector<glm::dvec3> inner;
     const std::vector<PieceEdge> edges = edgesOf(mesh, piece);
-    for (size_t i = 0; i < edges.size(); ++i) {
-        const glm::dvec2 from = mesh.vertices[piece.vertices[edges[i].from]].s;
-        const glm::dvec2 to = mesh.vertices[piece.vertices[edges[i].to]].s;
-        if (!isOnBorder(from, to, mesh.sizePx)) inner.push_back(all[i]);
-    }
+    for (size_t i = 0; i < edges.size(); ++i)
+        if (!isOnBorder(mesh, piece, edges[i])) inner.push_back(all[i]);
     return inner;
 }
 
@@ -55,9 +46,9 @@ std::vector<glm::vec4> pieceRows(const PieceMesh& mesh, size_t clipPlanes) {
     return rows;
 }
 
-std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
+std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh, double guardPx) {
     std::vector<GpuConeNode> nodes;
-    for (const ConeNode& node : buildPieceTree(mesh)) {
+    for (const ConeNode& node : buildPieceTree(mesh, guardPx)) {
         GpuConeNode& gpu = nodes.emplace_back();
         for (size_t i = 0; i < kMostPieceEdges; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
         gpu.link = {node.next, static_cast<uint32_t>(node.piece), node.planeCount, 0};
@@ -65,10 +56,10 @@ std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh) {
     return nodes;
 }
 
-std::vector<glm::vec4> guardedCornersOfAll(const PieceMesh& mesh) {
+std::vector<glm::vec4> guardedCornersOfAll(const PieceMesh& mesh, double guardPx) {
     std::vector<glm::vec4> corners;
     for (const Piece& piece : mesh.pieces) {
-        const std::vector<glm::dvec3> ofPiece = guardedCorners(mesh, piece);
+        const std::vector<glm::dvec3> ofPiece = guardedCorners(mesh, piece, guardPx);
         for (size_t i = 0; i < kMostPieceEdges; ++i)
             corners.emplace_back(glm::vec3(glm::normalize(ofPiece[std::min(i, ofPiece.size() - 1)])), 0);
     }
@@ -96,7 +87,7 @@ void fillLayer(GpuOwners& gpu, int layer, const std::vector<int32_t>& owners, gl
 
 }  // namespace
 
-GpuPieces uploadPieces(const PieceMesh& mesh) {
+GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     GpuPieces gpu;
     gpu.sizePx = mesh.sizePx;
     gpu.pieceCount = static_cast<int>(mesh.pieces.size());
@@ -107,10 +98,10 @@ GpuPieces uploadPieces(const PieceMesh& mesh) {
     const std::vector<glm::vec4> rows = pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes));
     gpu.firstRows = {glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
     gpu.pieces = makeBuffer(std::span<const glm::vec4>(rows));
-    const std::vector<GpuConeNode> nodes = gpuNodes(mesh);
+    const std::vector<GpuConeNode> nodes = gpuNodes(mesh, guardPx);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
-    gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh)));
+    gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh, guardPx)));
     return gpu;
 }
 

@@ -29,7 +29,8 @@ struct GpuPieces {
     GlBuffer corners;  // six rays a piece with its guard, the last one repeated, each a vec4
 };
 
-GpuPieces uploadPieces(const PieceMesh& mesh);
+// `guardPx` is how far beyond its edges the tree still finds a piece.
+GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx = kGuardPx);
 
 // Scale and offset that make clip space whole numbers at the samples of a pass; zeros where it has several a
 // pixel.

@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "renderer/blended_triangles.h"
 #include "renderer/meshlets.h"
+#include "renderer/stroke_renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -230,6 +231,7 @@ GpuScene uploadScene(ScenePtr scene) {
         uploaded.textures.push_back(uploadTexture(texture));
         uploaded.samplers.push_back(makeSampler(texture));
     }
+    if (hasStrokes(*scene)) uploaded.strokes = std::make_shared<StrokeScene>(*scene);
     uploaded.scene = std::move(scene);
     return uploaded;
 }

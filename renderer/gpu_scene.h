@@ -54,11 +54,13 @@ struct SceneChunk {
 GlVertexArray vertexArrayOver(const SceneChunk& chunk);
 
 class BlendedTriangles;
+struct StrokeScene;
 
 struct GpuScene {
     ScenePtr scene;
     std::vector<SceneChunk> chunks;             // of what hides what lies behind it
     std::shared_ptr<BlendedTriangles> blended;  // of the rest, where there is any
+    std::shared_ptr<StrokeScene> strokes;       // points and lines, where there are any
     std::vector<GlTexture> textures;
     std::vector<GlSampler> samplers;  // one a texture
 };

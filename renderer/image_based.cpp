@@ -6,16 +6,25 @@ GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double 
     GpuSource gpu;
     gpu.faceSizePx = source.faceSizePx;
     gpu.sizePx = source.faces.empty() ? glm::ivec2(1) : source.faces.front().sizePx;
-    for (const SourceFace& face : source.faces) gpu.faces.push_back(uploadPieces(faceMesh(face, distanceM)));
+    for (const SourceFace& face : source.faces) {
+        const PieceMesh mesh = faceMesh(face, distanceM);
+        gpu.faces.push_back(uploadPieces(mesh));
+        gpu.facesForStrokes.push_back(uploadStrokePieces(mesh));
+    }
     gpu.places = uploadPlaces(sourcePlaces(source, rays), rays.sizePx());
     return gpu;
 }
 
 ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs,
                                        const GpuScene& scene, const GpuSource& source)
-    : scene_(scene), source_(source) {
-    for (const GpuPieces& face : source.faces)
-        faces_.emplace_back(programs, scene, face, nullptr, PieceOwners{});
+    : source_(source) {
+    for (size_t i = 0; i < source.faces.size(); ++i) {
+        PiecewiseRenderer& face =
+            faces_.emplace_back(programs, scene, source.faces[i], nullptr, PieceOwners{});
+        if (scene.strokes)
+            face.addStrokes(std::make_unique<StrokeRenderer>(scene, *scene.strokes, source.facesForStrokes[i],
+                                                             programs->look(), nullptr));
+    }
 }
 
 void ImageBasedRenderer::record(const SceneView& view, const FacePictures& pictures,
@@ -25,6 +34,16 @@ void ImageBasedRenderer::record(const SceneView& view, const FacePictures& pictu
     resampler.record(pictures.texture(), source_.places, target, background);
 }
 
-uint64_t ImageBasedRenderer::pairCount() const { return scene_.scene->triangles.size() * faces_.size(); }
+std::optional<uint64_t> ImageBasedRenderer::finishFrame() {
+    uint64_t triangles = 0;
+    bool overflowed = false;
+    for (PiecewiseRenderer& face : faces_) {
+        const std::optional<uint64_t> drawn = face.finishFrame();
+        overflowed = overflowed || !drawn;
+        triangles += drawn.value_or(0);
+    }
+    if (overflowed) return std::nullopt;
+    return triangles;
+}
 
 }  // namespace curvewall

@@ -9,6 +9,7 @@
 #include "renderer/resampler.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace curvewall {
@@ -18,6 +19,7 @@ struct GpuSource {
     int faceSizePx = 0;
     glm::ivec2 sizePx{0};          // of every picture
     std::vector<GpuPieces> faces;  // each one piece
+    std::vector<StrokePieces> facesForStrokes;
     GlTexture places;
 };
 
@@ -34,10 +36,11 @@ public:
     void record(const SceneView& view, const FacePictures& pictures, const Resampler& resampler,
                 const FrameTarget& target, glm::vec3 background);
 
-    uint64_t pairCount() const;  // triangles submitted a frame, over all faces
+    // Triangles drawn into faces, or nothing where strokes found no room: then record the frame once more.
+    // Call it after the GPU has finished.
+    std::optional<uint64_t> finishFrame();
 
 private:
-    const GpuScene& scene_;
     const GpuSource& source_;
     std::vector<PiecewiseRenderer> faces_;
 };

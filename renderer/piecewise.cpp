@@ -64,18 +64,24 @@ void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
     programs_->setFrame(view, pieces_, pass);
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
-    enableClipPlanes(pieces_.clipPlanes);
-    const GpuOwners* owners = owners_.ofSamples ? owners_.ofSamples : owners_.ofPixels;
-    if (owners) glBindTextureUnit(1, owners->texture.id());
     const MaterialBinder materials{scene_, *programs_};
     const PieceDraw draw{pieces_, view, pass, materials};
+    prepareSurfaces();
     if (replicators_)
         replicators_->opaque->draw(draw);
     else
         plainDraw_->draw(scene_.chunks, draw);
+    if (strokes_) strokes_->recordSolid(view, pass);
     // Distances and points are those of what hides the rest.
     if (scene_.blended && (output() == OutputKind::color || output() == OutputKind::coverage))
         recordBlended(draw);
+    if (strokes_) strokes_->recordBlended(view, pass);
+}
+
+void PiecewiseRenderer::prepareSurfaces() const {
+    enableClipPlanes(pieces_.clipPlanes);
+    const GpuOwners* owners = owners_.ofSamples ? owners_.ofSamples : owners_.ofPixels;
+    if (owners) glBindTextureUnit(1, owners->texture.id());
 }
 
 // Nothing is nearer than a hole, and unlike a fragment that is discarded it leaves the early depth test on.
@@ -90,6 +96,7 @@ void PiecewiseRenderer::closeHoles() const {
 }
 
 void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {
+    prepareSurfaces();
     scene_.blended->sortFor(draw.view);
     const bool mixes = output() == OutputKind::color;
     glDepthMask(GL_FALSE);
@@ -103,13 +110,15 @@ void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {
 }
 
 std::optional<uint64_t> PiecewiseRenderer::finishFrame() {
-    if (!replicators_) return plainDraw_->takeTriangleCount();
-    FrameOutcome outcome = replicators_->opaque->finishFrame();
-    if (replicators_->blended) {
-        const FrameOutcome blended = replicators_->blended->finishFrame();
-        outcome.pairCount += blended.pairCount;
-        outcome.overflowed = outcome.overflowed || blended.overflowed;
-    }
+    FrameOutcome outcome;
+    const auto add = [&outcome](const FrameOutcome& part) {
+        outcome.pairCount += part.pairCount;
+        outcome.overflowed = outcome.overflowed || part.overflowed;
+    };
+    if (strokes_) add(strokes_->finishFrame());
+    if (plainDraw_) add({plainDraw_->takeTriangleCount(), false});
+    if (replicators_) add(replicators_->opaque->finishFrame());
+    if (replicators_ && replicators_->blended) add(replicators_->blended->finishFrame());
     if (outcome.overflowed) return std::nullopt;
     return outcome.pairCount;
 }

@@ -6,9 +6,11 @@
 #include "renderer/plain_draw.h"
 #include "renderer/replicator.h"
 #include "renderer/scene_programs.h"
+#include "renderer/stroke_renderer.h"
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace curvewall {
 
@@ -45,6 +47,9 @@ public:
     PiecewiseRenderer(std::shared_ptr<const ScenePrograms> programs, const GpuScene& scene,
                       const GpuPieces& pieces, SceneReplicators* replicators, const PieceOwners& owners);
 
+    // Points and lines of the scene are drawn too.
+    void addStrokes(std::unique_ptr<StrokeRenderer> strokes) { strokes_ = std::move(strokes); }
+
     // Draws into the bound framebuffer. Records GL work only: nothing is compiled or read back.
     void record(const SceneView& view, const FramePass& pass = {});
 
@@ -54,6 +59,7 @@ public:
 
 private:
     void closeHoles() const;
+    void prepareSurfaces() const;
     void recordBlended(const PieceDraw& draw);
     OutputKind output() const { return programs_->look().output; }
 
@@ -63,6 +69,7 @@ private:
     std::optional<PlainDraw> plainDraw_;
     PieceOwners owners_;
     std::shared_ptr<const ScenePrograms> programs_;
+    std::unique_ptr<StrokeRenderer> strokes_;
     GlProgram holesProgram_;  // where there are holes
     GlVertexArray emptyVertexArray_;
 };

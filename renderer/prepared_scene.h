@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace curvewall {
 
@@ -15,7 +16,8 @@ namespace curvewall {
 struct PreparedPieces {
     GpuPieces gpu;
     std::shared_ptr<const FittedPieces> fitted;
-    std::shared_ptr<const GpuOwners> owners;  // refits share them
+    std::shared_ptr<const GpuOwners> owners;   // refits share them
+    std::optional<StrokePieces> forStrokes{};  // where a scene has had some
 };
 
 // A renderer with what it refers to.

@@ -4,6 +4,7 @@
 #include "calibration/parallel.h"
 #include "renderer/edge_strokes.h"
 #include "renderer/line_styles.h"
+#include "renderer/projected_strokes.h"
 #include "renderer/ray_scene.h"
 #include "renderer/sample_pattern.h"
 #include "renderer/shading.h"
@@ -30,7 +31,8 @@ struct View {
     glm::dvec3 eyeM;     // relative to the scene's origin
     double footprintPx;  // side of the square that one sample stands for
     Style style;
-    const EdgeStrokes* strokes;  // of styles that draw edges
+    const EdgeStrokes* edges;                   // of styles that draw them
+    const ProjectedStrokes* strokes = nullptr;  // where the scene has any
 };
 
 struct SampleRay {
@@ -131,12 +133,15 @@ glm::vec4 baseColorAt(const Scene& scene, const Material& material, const EyeTri
     return material.baseColor * sampleTexture(texture, uv, level);
 }
 
-bool hidesNothing(const Material& material) { return material.doubleSided && material.alphaCutoff < 0; }
+// Whether a ray ends wherever it meets the material's triangles.
+bool isSolid(const Material& material) {
+    return material.doubleSided && material.alphaCutoff < 0 && material.blending == Blending::none;
+}
 
 // False where the material is discarded: seen from behind, or more transparent than its cutoff.
 bool isDrawn(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
     const Material& material = materialOf(scene, hit.triangle);
-    if (hidesNothing(material)) return true;
+    if (isSolid(material)) return true;
     const EyeTriangle triangle(scene, hit.triangle, view.eyeM);
     if (!material.doubleSided && !triangle.facesEye()) return false;
     if (material.alphaCutoff < 0) return true;
@@ -144,40 +149,106 @@ bool isDrawn(const Scene& scene, const View& view, const SampleRay& ray, const R
     return baseColorAt(scene, material, triangle, view, ray.px, weights).a >= material.alphaCutoff;
 }
 
-glm::vec3 surfaceColor(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
+// Linear light, straight alpha.
+glm::vec4 surfaceColor(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
     const EyeTriangle triangle(scene, hit.triangle, view.eyeM);
     const Material& material = materialOf(scene, hit.triangle);
     const glm::dvec3 weights = triangle.weightsAt(distanceTo(triangle, ray, hit) * ray.inScene.direction);
-    const glm::vec3 base(baseColorAt(scene, material, triangle, view, ray.px, weights));
+    const glm::vec4 base = baseColorAt(scene, material, triangle, view, ray.px, weights);
     if (view.style == Style::unlit || material.unlit) return base;
     const glm::vec3 normal(glm::normalize(triangle.interpolate(scene.normals, weights)));
-    return base * shading::lightOnSurface(triangle.facesEye() ? normal : -normal);
+    return base * glm::vec4(shading::lightOnSurface(triangle.facesEye() ? normal : -normal), 1);
 }
 
-glm::vec3 colorOf(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
-    const glm::vec3 surface = surfaceColor(scene, view, ray, hit);
-    if (!view.strokes) return surface;
-    const float line = view.strokes->coverage(
+glm::vec4 colorOf(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
+    const glm::vec4 surface = surfaceColor(scene, view, ray, hit);
+    if (!view.edges) return surface;
+    const float line = view.edges->coverage(
         hit.triangle, {view.projection, view.sceneFromWall, view.eyeM, view.footprintPx}, ray.px);
-    if (view.style == Style::wireframe) return line_styles::wireframeColor(surface, line);
-    return line_styles::penAndInkColor(surface, glm::vec2(ray.px), line,
-                                       static_cast<float>(view.footprintPx));
+    const glm::vec3 color(surface);
+    if (view.style == Style::wireframe) return {line_styles::wireframeColor(color, line), surface.a};
+    return {line_styles::penAndInkColor(color, glm::vec2(ray.px), line, static_cast<float>(view.footprintPx)),
+            surface.a};
 }
 
-// A ray through an edge meets the triangles on both sides there; that is one crossing of one surface.
-int countCrossings(const Scene& scene, const View& view, const std::vector<RayHit>& hits) {
+glm::vec4 baseColorAt(const Scene& scene, const Material& material, const View& view,
+                      const StrokePlace& place) {
+    if (material.texture < 0) return material.baseColor;
+    const Texture& texture = scene.textures[static_cast<size_t>(material.texture)];
+    const glm::uvec2 ends = verticesOf(scene, place.stroke);
+    const glm::dvec2 from(scene.uvs[ends.x]), way = glm::dvec2(scene.uvs[ends.y]) - from;
+    const glm::dvec2 step = view.footprintPx * place.alongPerPx;
+    const double level = levelOfDetail(texture.levels.front().sizePx, step.x * way, step.y * way);
+    return material.baseColor * sampleTexture(texture, from + place.along * way, level);
+}
+
+glm::vec4 colorOf(const Scene& scene, const View& view, const StrokePlace& place) {
+    const Material& material = strokeMaterialOf(scene, place.stroke);
+    const glm::vec4 base = baseColorAt(scene, material, view, place);
+    if (view.style == Style::unlit || material.unlit) return base;
+    const glm::uvec2 ends = verticesOf(scene, place.stroke);
+    const glm::vec3 normal = glm::mix(scene.normals[ends.x], scene.normals[ends.y], place.along);
+    return base * glm::vec4(shading::lightOnSurface(glm::normalize(normal)), 1);
+}
+
+// The strokes that show at a sample, in the order of the scene.
+std::vector<StrokePlace> strokesAt(const Scene& scene, const View& view, const SampleRay& ray) {
+    if (!view.strokes) return {};
+    std::vector<StrokePlace> places = view.strokes->at(ray.px);
+    std::erase_if(places, [&](const StrokePlace& place) {
+        const Material& material = strokeMaterialOf(scene, place.stroke);
+        return glm::length(place.fromEyeM) < ray.inScene.nearM ||
+               (material.alphaCutoff >= 0 &&
+                baseColorAt(scene, material, view, place).a < material.alphaCutoff);
+    });
+    return places;
+}
+
+// Something that a ray passes through.
+struct Layer {
+    double distanceM;
+    glm::vec4 color;
+    Blending blending;
+};
+
+// What a ray sees through layers, of which the nearer of two at one place comes later.
+glm::vec3 seenThrough(std::vector<Layer> layers, glm::vec3 behind) {
+    std::ranges::reverse(layers);
+    std::ranges::stable_sort(layers, {}, &Layer::distanceM);
+    glm::vec3 sum(0);
+    float shareSeen = 1;  // of what is behind
+    for (const Layer& layer : layers) {
+        const float alpha = std::clamp(layer.color.a, 0.0f, 1.0f);
+        sum += shareSeen * alpha * glm::vec3(layer.color);
+        if (layer.blending == Blending::alpha) shareSeen *= 1 - alpha;
+    }
+    return sum + shareSeen * behind;
+}
+
+bool shareCorner(const Scene& scene, uint32_t a, uint32_t b) {
+    for (glm::length_t i = 0; i < 3; ++i)
+        for (glm::length_t k = 0; k < 3; ++k)
+            if (scene.positions[scene.triangles[a][i]] == scene.positions[scene.triangles[b][k]]) return true;
+    return false;
+}
+
+// A ray through an edge meets the triangles on both sides there; that is one crossing of one surface, and
+// the first triangle of the scene stands for it.
+void keepCrossings(const Scene& scene, const View& view, std::vector<RayHit>& hits) {
     const auto facesEye = [&](const RayHit& hit) {
         return EyeTriangle(scene, hit.triangle, view.eyeM).facesEye();
     };
     const auto sameCrossing = [&](const RayHit& a, const RayHit& b) {
-        return a.onEdge && b.onEdge && std::abs(a.distanceM - b.distanceM) <= 1e-6f * a.distanceM &&
-               facesEye(a) == facesEye(b);
+        return b.onEdge && std::abs(a.distanceM - b.distanceM) <= 1e-6f * a.distanceM &&
+               shareCorner(scene, a.triangle, b.triangle) && facesEye(a) == facesEye(b);
     };
-    int crossings = 0;
-    for (auto hit = hits.begin(); hit != hits.end(); ++hit)
-        if (std::none_of(hits.begin(), hit, [&](const RayHit& other) { return sameCrossing(*hit, other); }))
-            ++crossings;
-    return crossings;
+    std::ranges::sort(hits, {}, &RayHit::triangle);
+    std::vector<RayHit> crossings;
+    for (const RayHit& hit : hits)
+        if (!hit.onEdge ||
+            std::ranges::none_of(crossings, [&](const RayHit& known) { return sameCrossing(hit, known); }))
+            crossings.push_back(hit);
+    hits = std::move(crossings);
 }
 
 }  // namespace
@@ -185,30 +256,81 @@ int countCrossings(const Scene& scene, const View& view, const std::vector<RayHi
 struct ReferenceRenderer::Impl {
     ScenePtr scene;
     RayScene rays;
-    bool hasHoles;  // some material hides less than its triangles cover
+    bool isAllSolid;
 
     explicit Impl(ScenePtr shown)
-        : scene(std::move(shown)),
-          rays(*scene),
-          hasHoles(!std::all_of(scene->materials.begin(), scene->materials.end(), hidesNothing)) {}
+        : scene(std::move(shown)), rays(*scene), isAllSolid(std::ranges::all_of(scene->materials, isSolid)) {}
 
-    std::optional<RayHit> nearest(const View& view, const SampleRay& ray) const {
-        if (!hasHoles) return rays.nearestHit(ray.inScene, nullptr);
-        return rays.nearestHit(ray.inScene,
-                               [&](const RayHit& hit) { return isDrawn(*scene, view, ray, hit); });
+    // The nearest surface that hides what is behind it. What is drawn of those that let it through, farther
+    // ones among them, goes to `through`.
+    std::optional<RayHit> nearest(const View& view, const SampleRay& ray,
+                                  std::vector<RayHit>* through = nullptr) const {
+        if (isAllSolid) return rays.nearestHit(ray.inScene, nullptr);
+        return rays.nearestHit(ray.inScene, [&](const RayHit& hit) {
+            const bool hides = materialOf(*scene, hit.triangle).blending == Blending::none;
+            if ((!hides && !through) || !isDrawn(*scene, view, ray, hit)) return false;
+            if (!hides) through->push_back(hit);
+            return hides;
+        });
+    }
+
+    double distanceOf(const View& view, const SampleRay& ray, const RayHit& hit) const {
+        return distanceTo(EyeTriangle(*scene, hit.triangle, view.eyeM), ray, hit);
+    }
+
+    // The nearest stroke that hides what is behind it, where it is nearer than the surface.
+    const StrokePlace* nearest(const std::vector<StrokePlace>& strokes, double surfaceM) const {
+        const StrokePlace* best = nullptr;
+        for (const StrokePlace& place : strokes) {
+            const double distanceM = glm::length(place.fromEyeM);
+            if (strokeMaterialOf(*scene, place.stroke).blending != Blending::none || distanceM >= surfaceM)
+                continue;
+            best = &place;
+            surfaceM = distanceM;
+        }
+        return best;
     }
 
     glm::vec3 color(const View& view, glm::dvec2 px, glm::vec3 background) const {
         const std::optional<SampleRay> ray = sampleRay(view, px);
-        const std::optional<RayHit> hit = ray ? nearest(view, *ray) : std::nullopt;
-        return hit ? colorOf(*scene, view, *ray, *hit) : background;
+        if (!ray) return background;
+        std::vector<RayHit> through;
+        const std::optional<RayHit> hit = nearest(view, *ray, &through);
+        const std::vector<StrokePlace> strokes = strokesAt(*scene, view, *ray);
+        if (through.empty() && strokes.empty())
+            return hit ? glm::vec3(colorOf(*scene, view, *ray, *hit)) : background;
+
+        double endM = hit ? distanceOf(view, *ray, *hit) : std::numeric_limits<double>::infinity();
+        const StrokePlace* const front = nearest(strokes, endM);
+        if (front) endM = glm::length(front->fromEyeM);
+        const glm::vec3 behind = front ? glm::vec3(colorOf(*scene, view, *front))
+                                 : hit ? glm::vec3(colorOf(*scene, view, *ray, *hit))
+                                       : background;
+        keepCrossings(*scene, view, through);
+        std::vector<Layer> layers;
+        for (const RayHit& layer : through)
+            if (const double m = distanceOf(view, *ray, layer); m < endM)
+                layers.push_back(
+                    {m, colorOf(*scene, view, *ray, layer), materialOf(*scene, layer.triangle).blending});
+        for (const StrokePlace& layer : strokes) {
+            const Blending blending = strokeMaterialOf(*scene, layer.stroke).blending;
+            if (const double m = glm::length(layer.fromEyeM); m < endM && blending != Blending::none)
+                layers.push_back({m, colorOf(*scene, view, layer), blending});
+        }
+        return seenThrough(std::move(layers), behind);
     }
 
+    // Relative to the eye, wall axes.
     std::optional<glm::dvec3> position(const View& view, glm::dvec2 px) const {
         const std::optional<SampleRay> ray = sampleRay(view, px);
-        const std::optional<RayHit> hit = ray ? nearest(view, *ray) : std::nullopt;
+        if (!ray) return std::nullopt;
+        const std::optional<RayHit> hit = nearest(view, *ray);
+        const double hitM = hit ? distanceOf(view, *ray, *hit) : std::numeric_limits<double>::infinity();
+        const std::vector<StrokePlace> strokes = strokesAt(*scene, view, *ray);
+        if (const StrokePlace* const front = nearest(strokes, hitM))
+            return glm::transpose(view.sceneFromWall) * front->fromEyeM;
         if (!hit) return std::nullopt;
-        return distanceTo(EyeTriangle(*scene, hit->triangle, view.eyeM), *ray, *hit) * ray->directionInWall;
+        return hitM * ray->directionInWall;
     }
 
     int coverage(const View& view, glm::dvec2 px) const {
@@ -216,7 +338,8 @@ struct ReferenceRenderer::Impl {
         if (!ray) return 0;
         std::vector<RayHit> hits = rays.allHits(ray->inScene);
         std::erase_if(hits, [&](const RayHit& hit) { return !isDrawn(*scene, view, *ray, hit); });
-        return countCrossings(*scene, view, hits);
+        keepCrossings(*scene, view, hits);
+        return static_cast<int>(hits.size() + strokesAt(*scene, view, *ray).size());
     }
 };
 
@@ -229,14 +352,18 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
                                 const Options& options) const {
     if (options.samples < 1) throw UsageError("the reference needs at least one sample a pixel");
     const bool isColor = options.output == OutputKind::color;
-    std::optional<EdgeStrokes> strokes;
-    if (drawsEdges(options.style, options.output)) strokes.emplace(*impl_->scene, options.style);
-    const View view{*display.projection,
-                    rotationFromOrientation(camera.orientation),
-                    eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
-                    isColor ? 1 / std::sqrt(options.samples) : 1.0,
-                    options.style,
-                    strokes ? &*strokes : nullptr};
+    std::optional<EdgeStrokes> edges;
+    if (drawsEdges(options.style, options.output)) edges.emplace(*impl_->scene, options.style);
+    View view{*display.projection,
+              rotationFromOrientation(camera.orientation),
+              eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
+              isColor ? 1 / std::sqrt(options.samples) : 1.0,
+              options.style,
+              edges ? &*edges : nullptr};
+    std::optional<ProjectedStrokes> strokes;
+    if (!impl_->scene->points.empty() || !impl_->scene->lines.empty())
+        view.strokes =
+            &strokes.emplace(*impl_->scene, display, view.sceneFromWall, view.eyeM, options.threads);
 
     Frame frame{display.sizePx, channelsOf(options.output), {}};
     const auto width = static_cast<size_t>(frame.sizePx.x), channels = static_cast<size_t>(frame.channels);

@@ -26,7 +26,8 @@ public:
         int samples = 1;  // rays per pixel: 1 casts the pixel centre, n a stratified, seeded pattern
         int threads = 0;  // 0: all cores; the picture does not depend on it
     };
-    // Colour is averaged in linear light; the other outputs are of the pixel's centre.
+    // Colour is mixed and averaged in linear light; the other outputs are of the pixel's centre. What blends
+    // counts as cover and leaves depth and position to what it does not hide.
     // Textures are filtered by the footprint of the sample (ray differentials, trilinear).
     Frame render(const Wall& wall, const Display& display, const Camera& camera,
                  const Options& options) const;

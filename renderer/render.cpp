@@ -154,9 +154,15 @@ struct Renderer::Impl {
             }
             const GeometryPath path =
                 pathThrough(prepared->gpu, whose, look.output, request.engine, target.samplesAPass());
-            return std::make_shared<PreparedDraw>(PreparedDraw{
-                sampled, PiecewiseRenderer(programsFor(scene, look, path), scene.gpu, prepared->gpu,
-                                           &scene.replicatorsFor(request.engine), whose)});
+            PiecewiseRenderer renderer(programsFor(scene, look, path), scene.gpu, prepared->gpu,
+                                       &scene.replicatorsFor(request.engine), whose);
+            if (scene.gpu.strokes) {
+                if (!prepared->forStrokes)
+                    prepared->forStrokes.emplace(uploadStrokePieces(prepared->fitted->mesh));
+                renderer.addStrokes(std::make_unique<StrokeRenderer>(
+                    scene.gpu, *scene.gpu.strokes, *prepared->forStrokes, look, whose.ofPixels));
+            }
+            return std::make_shared<PreparedDraw>(PreparedDraw{sampled, std::move(renderer)});
         });
     }
 
@@ -189,6 +195,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const auto drawn = preparedDraw(request, *scene, prepared, target, samples);
     stats.prepareMs = preparing.ms();
 
+    uint64_t pairsOfFrame = 0;
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
         std::optional<uint64_t> pairs;
@@ -199,15 +206,13 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
             waitForGpu();
             pairs = drawn->renderer.finishFrame();
         }
-        stats.pairs = *pairs;
+        pairsOfFrame = *pairs;
     };
-    uint64_t firstPairs = 0;
     const auto readFirst = [&] {
         result.frame = blended.read(target.picture());
-        firstPairs = stats.pairs;
+        stats.pairs = pairsOfFrame;
     };
     measureFrames(request, draw, readFirst, stats);
-    stats.pairs = firstPairs;
     stats.method = "piecewise";
     stats.engine = prepared->gpu.pieceCount > 1 ? nameOf(request.engine) : "plain";
     stats.tolerancePx = request.tolerancePx;
@@ -239,20 +244,28 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     const FrameTarget target(display.sizePx, format, 1);
     stats.prepareMs = preparing.ms();
 
+    uint64_t pairs = 0;
     const auto draw = [&](const Camera& camera) {
-        renderer->record(sceneViewOf(camera, request.wall->eyeM, *request.scene), *pictures, *resampler,
-                         target, request.wall->background);
-        blended.record(target);
-        waitForGpu();
+        const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
+        std::optional<uint64_t> drawn;
+        while (!drawn) {
+            renderer->record(view, *pictures, *resampler, target, request.wall->background);
+            blended.record(target);
+            waitForGpu();
+            drawn = renderer->finishFrame();
+        }
+        pairs = *drawn;
     };
-    measureFrames(
-        request, draw, [&] { result.frame = blended.read(target); }, stats);
+    const auto readFirst = [&] {
+        result.frame = blended.read(target);
+        stats.pairs = pairs;
+    };
+    measureFrames(request, draw, readFirst, stats);
     stats.method = "image-based";
     stats.engine = nameOf(request.source);
     stats.source = nameOf(request.source);
     stats.filter = nameOf(filter);
     stats.geometricError = errorOf(source->error);
-    stats.pairs = renderer->pairCount();
     stats.faceSizePx = source->gpu.faceSizePx;
     stats.faces = static_cast<int>(source->gpu.faces.size());
     return result;

@@ -8,7 +8,6 @@
 #include <vector>
 
 namespace curvewall {
-namespace {
 
 std::string outputDefine(OutputKind output) {
     switch (output) {
@@ -23,8 +22,6 @@ std::string outputDefine(OutputKind output) {
     }
     return {};
 }
-
-}  // namespace
 
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
     : look_(look), drawsEdges_(curvewall::drawsEdges(look.style, look.output)) {

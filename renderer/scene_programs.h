@@ -10,6 +10,7 @@
 
 #include <compare>
 #include <map>
+#include <string>
 
 namespace curvewall {
 
@@ -17,6 +18,9 @@ struct SceneLook {
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
 };
+
+// What tells a fragment shader the output.
+std::string outputDefine(OutputKind output);
 
 // How the corners reach the shader.
 enum class CornerSource {

@@ -133,16 +133,24 @@ std::vector<PieceEdge> edgesOf(const PieceMesh& mesh, const Piece& piece) {
     return edges;
 }
 
-std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece) {
+bool isOnBorder(const PieceMesh& mesh, const Piece& piece, PieceEdge edge) {
+    const glm::dvec2 a = mesh.vertices[piece.vertices[edge.from]].s,
+                     b = mesh.vertices[piece.vertices[edge.to]].s;
+    for (int axis = 0; axis < 2; ++axis)
+        if (a[axis] == b[axis] && (a[axis] <= 0 || a[axis] >= mesh.sizePx[axis])) return true;
+    return false;
+}
+
+std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece, double guardPx) {
     // A screen line is a plane through the eye: (n, c) . H r >= 0, that is (H^T (n, c)) . r >= 0.
     std::vector<glm::dvec3> planes;
     for (const ScreenSide& side : screenSides(mesh, piece))
         planes.push_back(glm::transpose(piece.screenFromRay) *
-                         glm::dvec3(side.inward, kGuardPx - glm::dot(side.inward, side.from)));
+                         glm::dvec3(side.inward, guardPx - glm::dot(side.inward, side.from)));
     return planes;
 }
 
-std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece) {
+std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece, double guardPx) {
     const std::vector<ScreenSide> sides = screenSides(mesh, piece);
     const glm::dmat3 rayFromScreen = glm::inverse(piece.screenFromRay);
     std::vector<glm::dvec3> corners;
@@ -151,7 +159,7 @@ std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece
         const glm::dvec2 before = sides[(i + sides.size() - 1) % sides.size()].inward,
                          after = sides[i].inward;
         const glm::dvec2 outward = -(before + after) / (1 + glm::dot(before, after));
-        corners.push_back(rayFromScreen * glm::dvec3(sides[i].from + kGuardPx * outward, 1));
+        corners.push_back(rayFromScreen * glm::dvec3(sides[i].from + guardPx * outward, 1));
     }
     return corners;
 }

@@ -83,11 +83,14 @@ struct PieceEdge {
 // The edges that have a length, in order around the piece.
 std::vector<PieceEdge> edgesOf(const PieceMesh& mesh, const Piece& piece);
 
+// Whether an edge lies on the display's border.
+bool isOnBorder(const PieceMesh& mesh, const Piece& piece, PieceEdge edge);
+
 // Planes through the eye that bound a piece, its guard included: dot(plane, ray) >= 0 inside. One for each of
 // edgesOf.
-std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece);
+std::vector<glm::dvec3> edgePlanes(const PieceMesh& mesh, const Piece& piece, double guardPx = kGuardPx);
 
 // Corner rays of the region that edgePlanes bounds.
-std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece);
+std::vector<glm::dvec3> guardedCorners(const PieceMesh& mesh, const Piece& piece, double guardPx = kGuardPx);
 
 }  // namespace curvewall

@@ -16,10 +16,11 @@ constexpr double kLeastAxisCosine = 0.1;
 
 class TreeBuilder {
 public:
-    explicit TreeBuilder(const PieceMesh& mesh) : mesh_(mesh), order_(mesh.pieces.size()) {
+    TreeBuilder(const PieceMesh& mesh, double guardPx)
+        : mesh_(mesh), guardPx_(guardPx), order_(mesh.pieces.size()) {
         std::iota(order_.begin(), order_.end(), 0u);
         for (const Piece& piece : mesh.pieces) {
-            std::vector<glm::dvec3> corners = guardedCorners(mesh, piece);
+            std::vector<glm::dvec3> corners = guardedCorners(mesh, piece, guardPx);
             for (glm::dvec3& corner : corners) corner = glm::normalize(corner);
             corners_.push_back(std::move(corners));
         }
@@ -34,7 +35,7 @@ private:
         nodes_.emplace_back();
         if (pieces.size() == 1) {
             nodes_[self].piece = static_cast<int32_t>(pieces[0]);
-            for (const glm::dvec3& plane : edgePlanes(mesh_, mesh_.pieces[pieces[0]]))
+            for (const glm::dvec3& plane : edgePlanes(mesh_, mesh_.pieces[pieces[0]], guardPx_))
                 nodes_[self].planes[nodes_[self].planeCount++] = glm::normalize(plane);
         } else {
             boundByPlanes(nodes_[self], pieces);
@@ -93,6 +94,7 @@ private:
     }
 
     const PieceMesh& mesh_;
+    double guardPx_;
     std::vector<uint32_t> order_;
     std::vector<std::vector<glm::dvec3>> corners_;  // per piece, length one
     std::vector<ConeNode> nodes_;
@@ -100,6 +102,8 @@ private:
 
 }  // namespace
 
-std::vector<ConeNode> buildPieceTree(const PieceMesh& mesh) { return TreeBuilder(mesh).take(); }
+std::vector<ConeNode> buildPieceTree(const PieceMesh& mesh, double guardPx) {
+    return TreeBuilder(mesh, guardPx).take();
+}
 
 }  // namespace curvewall

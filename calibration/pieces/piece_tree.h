@@ -20,6 +20,6 @@ struct ConeNode {
 };
 
 // Leaves are bounded by their piece's edgePlanes, inner nodes by four planes about all pieces below.
-std::vector<ConeNode> buildPieceTree(const PieceMesh& mesh);
+std::vector<ConeNode> buildPieceTree(const PieceMesh& mesh, double guardPx = kGuardPx);
 
 }  // namespace curvewall

@@ -32,6 +32,19 @@ MipLevel decodedImage(const GltfFile& file, int imageIndex) {
     return decodeImage(file.path, field, image.image);
 }
 
+// Core glTF knows no additive blending; `extras` is its place for what an application adds.
+bool asksForAdditive(const GltfFile& file, const tinygltf::Material& material, const std::string& field) {
+    if (!material.extras.IsObject() || !material.extras.Has("blending")) return false;
+    const tinygltf::Value& blending = material.extras.Get("blending");
+    const std::string found = blending.IsString() ? "\"" + blending.Get<std::string>() + "\"" : "no text";
+    if (found != "\"additive\"")
+        throw InputError(file.path, field + ".extras.blending", "\"additive\"", found);
+    if (material.alphaMode != "BLEND")
+        throw InputError(file.path, field + ".alphaMode", "BLEND, because extras.blending is additive",
+                         "\"" + material.alphaMode + "\"");
+    return true;
+}
+
 }  // namespace
 
 GltfMaterial GltfMaterials::use(int gltfIndex, const std::string& field) {
@@ -59,12 +72,12 @@ GltfMaterial GltfMaterials::convert(int gltfIndex) {
     if (source.alphaMode == "MASK") {
         material.alphaCutoff = static_cast<float>(source.alphaCutoff);
     } else if (source.alphaMode == "BLEND") {
-        material.alphaCutoff = 0.5f;
-        noteOnce(quotedName + ": alphaMode BLEND is drawn as MASK with a cutoff of 0.5");
+        material.blending = Blending::alpha;
     } else if (source.alphaMode != "OPAQUE") {
         throw InputError(file_.path, field + ".alphaMode", "OPAQUE, MASK or BLEND",
                          "\"" + source.alphaMode + "\"");
     }
+    if (asksForAdditive(file_, source, field)) material.blending = Blending::additive;
 
     GltfMaterial converted{static_cast<uint32_t>(scene_.materials.size()), -1};
     const tinygltf::TextureInfo& texture = source.pbrMetallicRoughness.baseColorTexture;

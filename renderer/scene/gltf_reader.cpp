@@ -23,7 +23,7 @@ namespace curvewall {
 namespace {
 
 constexpr int kMaxJsonDepth = 200;
-constexpr size_t kMaxTriangles = 100'000'000;  // a small file can ask for any number through instances
+constexpr size_t kMaxPrimitives = 100'000'000;  // a small file can ask for any number through instances
 
 constexpr std::array<std::string_view, 2> kSupportedExtensions{"KHR_materials_unlit",
                                                                "KHR_mesh_quantization"};
@@ -127,17 +127,27 @@ GltfFile parse(const std::string& path) {
     return file;
 }
 
-std::vector<glm::uvec3> trianglesFrom(int mode, const std::vector<uint32_t>& i) {
-    std::vector<glm::uvec3> triangles;
+void addTriangles(MeshPart& part, int mode, const std::vector<uint32_t>& i) {
     if (mode == TINYGLTF_MODE_TRIANGLES) {
-        for (size_t k = 0; k + 2 < i.size(); k += 3) triangles.emplace_back(i[k], i[k + 1], i[k + 2]);
+        for (size_t k = 0; k + 2 < i.size(); k += 3) part.triangles.emplace_back(i[k], i[k + 1], i[k + 2]);
     } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
         for (size_t k = 0; k + 2 < i.size(); ++k)
-            triangles.emplace_back(i[k], i[k + 1 + k % 2], i[k + 2 - k % 2]);
+            part.triangles.emplace_back(i[k], i[k + 1 + k % 2], i[k + 2 - k % 2]);
     } else {
-        for (size_t k = 1; k + 1 < i.size(); ++k) triangles.emplace_back(i[k], i[k + 1], i[0]);
+        for (size_t k = 1; k + 1 < i.size(); ++k) part.triangles.emplace_back(i[k], i[k + 1], i[0]);
     }
-    return triangles;
+}
+
+void addPrimitives(MeshPart& part, int mode, const std::vector<uint32_t>& i) {
+    if (mode == TINYGLTF_MODE_POINTS) {
+        part.points = i;
+    } else if (mode >= TINYGLTF_MODE_TRIANGLES) {
+        addTriangles(part, mode, i);
+    } else {
+        const size_t step = mode == TINYGLTF_MODE_LINE ? 2 : 1;
+        for (size_t k = 0; k + 1 < i.size(); k += step) part.lines.emplace_back(i[k], i[k + 1]);
+        if (mode == TINYGLTF_MODE_LINE_LOOP && i.size() > 1) part.lines.emplace_back(i.back(), i.front());
+    }
 }
 
 glm::dmat4 localTransform(const GltfFile& file, size_t nodeIndex) {
@@ -184,11 +194,9 @@ public:
     Scene read() {
         noteWhatIsIgnored();
         visitNodes();
-        for (const auto& [note, count] : noteCounts_)
-            scene_.notes.push_back("skipped " + std::to_string(count) + " " + note);
         setGeometry(scene_, parts_);
-        if (scene_.triangles.empty())
-            throw InputError(file_.path, "", "at least one triangle to draw",
+        if (isEmpty(scene_))
+            throw InputError(file_.path, "", "at least one triangle, line or point to draw",
                              "none" + (scene_.notes.empty() ? "" : " (" + scene_.notes.back() + ")"));
         return std::move(scene_);
     }
@@ -260,9 +268,10 @@ private:
         const auto [entry, isNew] = meshes_.try_emplace(meshIndex);
         if (isNew) entry->second = readMesh(static_cast<size_t>(meshIndex));
         for (const MeshPart& part : entry->second) {
-            triangleCount_ += part.triangles.size();
-            if (triangleCount_ > kMaxTriangles)
-                throw InputError(file_.path, field, "at most " + std::to_string(kMaxTriangles) + " triangles",
+            primitiveCount_ += part.primitiveCount();
+            if (primitiveCount_ > kMaxPrimitives)
+                throw InputError(file_.path, field,
+                                 "at most " + std::to_string(kMaxPrimitives) + " triangles, lines and points",
                                  "more");
             parts_.push_back(transformed(part, sceneFromMesh));
         }
@@ -276,10 +285,7 @@ private:
             const std::string field = indexed("meshes", meshIndex) + "." + indexed("primitives", i);
             if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
                 throw InputError(file_.path, field + ".mode", "0 to 6", std::to_string(mode));
-            if (mode < TINYGLTF_MODE_TRIANGLES)
-                ++noteCounts_[mode == TINYGLTF_MODE_POINTS ? "primitives of points" : "primitives of lines"];
-            else
-                parts.push_back(readPrimitive(mesh.primitives[i], field));
+            parts.push_back(readPrimitive(mesh.primitives[i], field));
         }
         return parts;
     }
@@ -320,7 +326,7 @@ private:
         } else {
             for (uint32_t i = 0; i < count; ++i) indices.push_back(i);
         }
-        part.triangles = trianglesFrom(primitive.mode, indices);
+        addPrimitives(part, primitive.mode, indices);
         return part;
     }
 
@@ -360,8 +366,7 @@ private:
     GltfMaterials materials_;
     std::map<int, std::vector<MeshPart>> meshes_;  // in mesh coordinates, decoded once for all instances
     std::vector<MeshPart> parts_;
-    std::map<std::string, int> noteCounts_;
-    size_t triangleCount_ = 0;
+    size_t primitiveCount_ = 0;
 };
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "renderer/scene/texture.h"
 
 #include <assimp/Importer.hpp>
-#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -44,13 +43,11 @@ public:
         const std::string image = textureNameOf(source, aiTextureType_DIFFUSE);
         const std::string mask = textureNameOf(source, aiTextureType_OPACITY);
         if (!image.empty()) material.texture = texture(image);
-        if (opacity < 1 || (!mask.empty() && mask == image)) {
-            material.alphaCutoff = 0.5f;
-            scene_.notes.push_back("material \"" + material.name +
-                                   "\": transparency is drawn as a cutoff at 0.5");
-        } else if (!mask.empty()) {
+        // A dissolve map is read where it is the alpha of the colour map, as exporters write it for leaves.
+        const bool hasMask = !mask.empty() && mask == image;
+        if (opacity < 1 || hasMask) material.blending = Blending::alpha;
+        if (!mask.empty() && !hasMask)
             scene_.notes.push_back("material \"" + material.name + "\": map_d is ignored");
-        }
         scene_.materials.push_back(std::move(material));
     }
 
@@ -99,31 +96,65 @@ MeshPart partFrom(const std::string& path, const aiMesh& mesh, const std::string
     return part;
 }
 
+// The elements `p` and `l`, of which the latter come as single segments. They have no normals in the file.
+MeshPart strokesFrom(const std::string& path, const aiMesh& mesh, const std::string& field) {
+    MeshPart part;
+    part.material = mesh.mMaterialIndex;
+    std::vector<uint32_t> indices;
+    const auto vertex = [&](unsigned index) {
+        if (index >= mesh.mNumVertices)
+            throw InputError(path, field, "indices below " + std::to_string(mesh.mNumVertices),
+                             std::to_string(index));
+        part.positionsM.push_back(dvec3From(mesh.mVertices[index]));
+        if (mesh.HasTextureCoords(0))
+            part.uvs.emplace_back(mesh.mTextureCoords[0][index].x, 1.0f - mesh.mTextureCoords[0][index].y);
+        return static_cast<uint32_t>(part.positionsM.size()) - 1;
+    };
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices == 1) part.points.push_back(vertex(face.mIndices[0]));
+        if (face.mNumIndices == 2) {
+            const uint32_t from = vertex(face.mIndices[0]);
+            part.lines.emplace_back(from, vertex(face.mIndices[1]));
+        }
+    }
+    return part;
+}
+
+const aiScene& require(const Assimp::Importer& importer, const aiScene* source, const std::string& path) {
+    if (source == nullptr || source->mRootNode == nullptr)
+        throw InputError(path, "", "a Wavefront OBJ file",
+                         source == nullptr ? importer.GetErrorString() : "an incomplete one");
+    return *source;
+}
+
 }  // namespace
 
 Scene readObj(const std::string& path) {
     Assimp::Importer importer;
-    // Polygons with holes or spikes come out as triangles, points and lines; only the first kind is drawn.
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* source = importer.ReadFile(
-        path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices);
-    if (source == nullptr || source->mRootNode == nullptr)
-        throw InputError(path, "", "a Wavefront OBJ file",
-                         source == nullptr ? importer.GetErrorString() : "an incomplete one");
+    std::vector<MeshPart> parts;
+    const auto addParts = [&](const aiScene& source, const auto& read) {
+        for (unsigned i = 0; i < source.mNumMeshes; ++i)
+            parts.push_back(read(path, *source.mMeshes[i], "meshes[" + std::to_string(i) + "]"));
+    };
+    // Taken before polygons become triangles: one with holes or spikes leaves points and lines too, which are
+    // not drawn.
+    addParts(require(importer, importer.ReadFile(path, 0), path), strokesFrom);
+    const aiScene& source =
+        require(importer,
+                importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType |
+                                             aiProcess_JoinIdenticalVertices),
+                path);
+    addParts(source, partFrom);
 
     Scene scene;
     scene.name = std::filesystem::path(path).stem().string();
     ObjMaterials materials(path, scene);
-    for (unsigned i = 0; i < source->mNumMaterials; ++i) materials.add(*source->mMaterials[i]);
-    std::vector<MeshPart> parts;
-    for (unsigned i = 0; i < source->mNumMeshes; ++i) {
-        const std::string field = "meshes[" + std::to_string(i) + "]";
-        parts.push_back(partFrom(path, *source->mMeshes[i], field));
-        if (parts.back().material >= scene.materials.size())
-            throw InputError(path, field, "a material", "none");
-    }
+    for (unsigned i = 0; i < source.mNumMaterials; ++i) materials.add(*source.mMaterials[i]);
+    for (const MeshPart& part : parts)
+        if (part.material >= scene.materials.size()) throw InputError(path, "meshes", "a material", "none");
     setGeometry(scene, parts);
-    if (scene.triangles.empty()) throw InputError(path, "", "at least one triangle to draw", "none");
+    if (isEmpty(scene)) throw InputError(path, "", "at least one triangle, line or point to draw", "none");
     return scene;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A scene as the renderers see it: triangles, materials, textures. Value type, no GL.
+// A scene as the renderers see it: triangles, points and lines, materials, textures. Value type, no GL.
 
 #include "renderer/camera.h"
 
@@ -54,6 +54,13 @@ struct MaterialRange {
     uint32_t triangleCount = 0;
 };
 
+// A run of points or of lines that share a material.
+struct StrokeRange {
+    uint32_t material = 0;
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
 struct Scene {
     std::string name;
     glm::dvec3 originM{0};  // subtracted in double, so that a scene far away keeps its float precision
@@ -63,6 +70,11 @@ struct Scene {
     std::vector<glm::vec2> uvs;
     std::vector<glm::uvec3> triangles;  // counter-clockwise seen from the front
     std::vector<MaterialRange> ranges;  // in triangle order, covering all triangles
+    // Drawn as wide as renderer/strokes.h says, whatever their distance. Those whose vertices have no normals
+    // in the file have unlit materials.
+    std::vector<uint32_t> points;
+    std::vector<glm::uvec2> lines;
+    std::vector<StrokeRange> pointRanges, lineRanges;  // in order, covering all
     std::vector<Material> materials;
     std::vector<Texture> textures;
     Camera defaultCamera;

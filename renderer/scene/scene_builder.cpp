@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace curvewall {
 namespace {
 
 constexpr uint32_t kUnassigned = std::numeric_limits<uint32_t>::max();
+constexpr glm::vec3 kUnread(0, 1, 0);  // the normal of what is unlit
 
 template <class Vector>
 bool isFinite(const Vector& v) {
@@ -31,15 +34,23 @@ std::optional<glm::vec3> unitNormal(const glm::dvec3& normal) {
 glm::dvec3 centreOf(const std::vector<MeshPart>& parts) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-std::numeric_limits<double>::infinity());
+    const auto include = [&](const glm::dvec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    };
     for (const MeshPart& part : parts) {
         for (const glm::uvec3& triangle : part.triangles) {
             const glm::dvec3& a = part.positionsM[triangle.x];
             const glm::dvec3& b = part.positionsM[triangle.y];
             const glm::dvec3& c = part.positionsM[triangle.z];
             if (!unitNormal(glm::cross(b - a, c - a))) continue;
-            low = glm::min(low, glm::min(a, glm::min(b, c)));
-            high = glm::max(high, glm::max(a, glm::max(b, c)));
+            for (const glm::dvec3& p : {a, b, c}) include(p);
         }
+        for (const uint32_t point : part.points)
+            if (isFinite(part.positionsM[point])) include(part.positionsM[point]);
+        for (const glm::uvec2& line : part.lines)
+            if (isFinite(part.positionsM[line.x]) && isFinite(part.positionsM[line.y]))
+                for (const uint32_t end : {line.x, line.y}) include(part.positionsM[end]);
     }
     return low.x <= high.x ? 0.5 * low + 0.5 * high : glm::dvec3(0);
 }
@@ -55,9 +66,12 @@ public:
         rounded_.clear();
         for (const glm::dvec3& p : part.positionsM) rounded_.emplace_back(p - scene_.originM);
         for (const glm::uvec3& triangle : part.triangles) addTriangle(part, triangle);
+        for (const uint32_t point : part.points) addPoint(part, point);
+        for (const glm::uvec2& line : part.lines) addLine(part, line);
     }
 
     size_t dropped() const { return dropped_; }
+    size_t droppedStrokes() const { return droppedStrokes_; }
 
 private:
     void addTriangle(const MeshPart& part, const glm::uvec3& triangle) {
@@ -72,6 +86,21 @@ private:
         glm::uvec3 written;
         for (glm::length_t i = 0; i < 3; ++i) written[i] = vertex(part, triangle[i], *flat);
         scene_.triangles.push_back(written);
+    }
+
+    void addPoint(const MeshPart& part, uint32_t point) {
+        if (isFinite(rounded_[point]))
+            scene_.points.push_back(vertex(part, point, kUnread));
+        else
+            ++droppedStrokes_;
+    }
+
+    void addLine(const MeshPart& part, const glm::uvec2& line) {
+        const glm::vec3 a = rounded_[line.x], b = rounded_[line.y];
+        if (isFinite(a) && isFinite(b) && a != b)
+            scene_.lines.emplace_back(vertex(part, line.x, kUnread), vertex(part, line.y, kUnread));
+        else
+            ++droppedStrokes_;
     }
 
     // Vertices are shared between triangles only where the file gives a normal to share.
@@ -90,8 +119,43 @@ private:
     Scene& scene_;
     std::vector<uint32_t> indexOf_;   // in the scene, of the part's vertices
     std::vector<glm::vec3> rounded_;  // the part's positions as the scene holds them
-    size_t dropped_ = 0;
+    size_t dropped_ = 0, droppedStrokes_ = 0;
 };
+
+// Appends a run, or lengthens the last one.
+void addRange(std::vector<StrokeRange>& ranges, uint32_t material, size_t first, size_t end) {
+    if (first == end) return;
+    const auto count = static_cast<uint32_t>(end - first);
+    if (!ranges.empty() && ranges.back().material == material)
+        ranges.back().count += count;
+    else
+        ranges.push_back({material, static_cast<uint32_t>(first), count});
+}
+
+// Materials as they are for what has no normals.
+class UnlitMaterials {
+public:
+    explicit UnlitMaterials(Scene& scene) : scene_(scene) {}
+
+    uint32_t of(uint32_t material) {
+        if (scene_.materials[material].unlit) return material;
+        const auto [entry, isNew] =
+            unlit_.try_emplace(material, static_cast<uint32_t>(scene_.materials.size()));
+        if (isNew) {
+            scene_.materials.push_back(Material(scene_.materials[material]));
+            scene_.materials.back().unlit = true;
+        }
+        return entry->second;
+    }
+
+private:
+    Scene& scene_;
+    std::map<uint32_t, uint32_t> unlit_;
+};
+
+std::string counted(size_t count, const char* one, const char* several) {
+    return std::to_string(count) + " " + (count == 1 ? one : several);
+}
 
 }  // namespace
 
@@ -105,9 +169,16 @@ void setGeometry(Scene& scene, const std::vector<MeshPart>& parts) {
                      [](const MeshPart* a, const MeshPart* b) { return a->material < b->material; });
 
     GeometryWriter writer(scene);
+    UnlitMaterials unlit(scene);
     for (const MeshPart* part : byMaterial) {
         const auto first = static_cast<uint32_t>(scene.triangles.size());
+        const size_t firstPoint = scene.points.size(), firstLine = scene.lines.size();
         writer.add(*part);
+        if (scene.points.size() > firstPoint || scene.lines.size() > firstLine) {
+            const uint32_t material = part->normals.empty() ? unlit.of(part->material) : part->material;
+            addRange(scene.pointRanges, material, firstPoint, scene.points.size());
+            addRange(scene.lineRanges, material, firstLine, scene.lines.size());
+        }
         const auto count = static_cast<uint32_t>(scene.triangles.size()) - first;
         if (count == 0) continue;
         if (!scene.ranges.empty() && scene.ranges.back().material == part->material)
@@ -117,9 +188,16 @@ void setGeometry(Scene& scene, const std::vector<MeshPart>& parts) {
     }
     scene.droppedTriangles = writer.dropped();
     if (writer.dropped() > 0)
-        scene.notes.push_back("dropped " + std::to_string(writer.dropped()) +
-                              (writer.dropped() == 1 ? " triangle" : " triangles") +
+        scene.notes.push_back("dropped " + counted(writer.dropped(), "triangle", "triangles") +
                               " with non-finite positions or zero area");
+    if (writer.droppedStrokes() > 0)
+        scene.notes.push_back("dropped " +
+                              counted(writer.droppedStrokes(), "point or line", "points or lines") +
+                              " with non-finite positions or zero length");
+}
+
+bool isEmpty(const Scene& scene) {
+    return scene.triangles.empty() && scene.points.empty() && scene.lines.empty();
 }
 
 }  // namespace curvewall

@@ -18,10 +18,17 @@ struct MeshPart {
     std::vector<glm::dvec3> normals;     // of any length; none: flat
     std::vector<glm::vec2> uvs;
     std::vector<glm::uvec3> triangles;  // counter-clockwise seen from the front
+    std::vector<uint32_t> points;
+    std::vector<glm::uvec2> lines;
+
+    size_t primitiveCount() const { return triangles.size() + points.size() + lines.size(); }
 };
 
-// Fills the scene's origin and geometry, sorted by material. Triangles that cannot be drawn are left out and
-// counted in the notes.
+// Fills the scene's origin and geometry, sorted by material. What cannot be drawn is left out and counted in
+// the notes. Points and lines without normals get an unlit material, as glTF 2.0 demands (section 3.7.2.1).
 void setGeometry(Scene& scene, const std::vector<MeshPart>& parts);
+
+// Whether it has neither triangles nor points nor lines.
+bool isEmpty(const Scene& scene);
 
 }  // namespace curvewall

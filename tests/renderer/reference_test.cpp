@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -205,6 +206,93 @@ TEST(Reference, MaskedTexelsShowWhatIsBehind) {
     // The factor's alpha counts too: all of it is below the cutoff.
     scene.materials[0].baseColor.a = 0.4f;
     EXPECT_EQ(rgb(render(scene, wall, kColor), 31, 0), glm::vec3(0, 0, 1));
+}
+
+Material blendedMaterial(glm::vec4 color, Blending blending) {
+    Material material = plainMaterial(glm::vec3(color));
+    material.baseColor.a = color.a;
+    material.blending = blending;
+    return material;
+}
+
+struct Pane {
+    float z;
+    glm::vec4 color;
+    Blending blending = Blending::alpha;
+};
+
+// Squares one behind the other, in this order in the scene, with a diagonal through every pixel on it.
+Scene panes(const std::vector<Pane>& order) {
+    Scene scene;
+    for (const Pane& pane : order) {
+        startMaterial(scene, blendedMaterial(pane.color, pane.blending));
+        addFrontalSquare(scene, {0, 0, pane.z}, -2 * pane.z);
+    }
+    return scene;
+}
+
+const Pane kNearPane{-1, {1, 0.2f, 0, 0.25f}}, kMiddlePane{-2, {0, 1, 0.4f, 0.5f}},
+    kFarPane{-3, {0.1f, 0, 1, 0.75f}};
+
+void expectColor(const Frame& frame, glm::vec3 expected) {
+    for (int y = 0; y < frame.sizePx.y; ++y)
+        for (int x = 0; x < frame.sizePx.x; ++x)
+            EXPECT_LT(glm::length(rgb(frame, x, y) - expected), 1e-6f) << x << ' ' << y;
+}
+
+// Sixteen by sixteen pixels whose diagonal is that of the squares: it must not show.
+TEST(Reference, TransparentSurfacesMixFromFarToNear) {
+    Wall wall = pinholeWall({16, 16}, 8);
+    wall.background = {0.5f, 0.25f, 0.125f};
+    glm::vec3 expected = wall.background;
+    for (const Pane& pane : {kFarPane, kMiddlePane, kNearPane})
+        expected = pane.color.a * glm::vec3(pane.color) + (1 - pane.color.a) * expected;
+    std::vector<Pane> order{kNearPane, kMiddlePane, kFarPane};
+    const auto before = [](const Pane& a, const Pane& b) { return a.z < b.z; };
+    std::ranges::sort(order, before);
+    do {
+        expectColor(render(panes(order), wall, kColor), expected);
+    } while (std::ranges::next_permutation(order, before).found);
+}
+
+TEST(Reference, AdditiveSurfacesAddAndHideNothing) {
+    Wall wall = pinholeWall({16, 16}, 8);
+    wall.background = glm::vec3(0.1f);
+    const Pane light{-1.5f, {0.5f, 2, 1, 0.5f}, Blending::additive};
+    const auto added = [](const Pane& pane) { return pane.color.a * glm::vec3(pane.color); };
+    Pane other = light;
+    other.z = -2.5f;
+    expectColor(render(panes({light, other}), wall, kColor), wall.background + 2.0f * added(light));
+    // What is nearer dims the light, and the light lets through what is farther.
+    const glm::vec3 middle = added(kMiddlePane) + (1 - kMiddlePane.color.a) * wall.background;
+    expectColor(render(panes({kMiddlePane, light, kNearPane}), wall, kColor),
+                added(kNearPane) + (1 - kNearPane.color.a) * (added(light) + middle));
+}
+
+TEST(Reference, WhatIsBehindASolidSurfaceDoesNotMix) {
+    const Wall wall = pinholeWall({16, 16}, 8);
+    const Pane solid{-2.5f, {0.3f, 0.6f, 0.9f, 0.5f}, Blending::none};
+    expectColor(render(panes({kFarPane, solid}), wall, kColor), glm::vec3(solid.color));
+    const Scene scene = panes({kNearPane, kFarPane, solid});
+    expectColor(render(scene, wall, kColor),
+                0.25f * glm::vec3(kNearPane.color) + 0.75f * glm::vec3(solid.color));
+    EXPECT_EQ(rgb(render(scene, wall, kPosition), 5, 5).z, -2.5f);
+    EXPECT_THAT(render(scene, wall, kCoverage).texels, testing::Each(3));
+}
+
+TEST(Reference, DepthIsThatOfTheNearestSolidSurface) {
+    const Wall wall = pinholeWall({16, 16}, 8);
+    EXPECT_EQ(*render(panes({kNearPane}), wall, kDepth).at(3, 3), std::numeric_limits<float>::infinity());
+    EXPECT_TRUE(std::isnan(*render(panes({kNearPane}), wall, kPosition).at(3, 3)));
+}
+
+TEST(Reference, TransparentSurfacesMayBeSingleSided) {
+    const Wall wall = pinholeWall({16, 16}, 8);
+    Scene scene = panes({kNearPane});
+    scene.materials[0].doubleSided = false;
+    expectColor(render(scene, wall, kColor), 0.25f * glm::vec3(kNearPane.color));
+    for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.y, triangle.z);
+    expectColor(render(scene, wall, kColor), wall.background);
 }
 
 TEST(Reference, SingleSidedTrianglesCannotBeSeenFromBehind) {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -44,6 +45,23 @@ inline void expectSound(const Scene& scene) {
         next += range.triangleCount;
     }
     EXPECT_EQ(next, scene.triangles.size());
+    const auto expectCovered = [&](const std::vector<StrokeRange>& runs, size_t count) {
+        uint32_t end = 0;
+        for (const StrokeRange& run : runs) {
+            EXPECT_EQ(run.first, end);
+            EXPECT_GT(run.count, 0u);
+            EXPECT_LT(run.material, scene.materials.size());
+            end += run.count;
+        }
+        EXPECT_EQ(end, count);
+    };
+    expectCovered(scene.pointRanges, scene.points.size());
+    expectCovered(scene.lineRanges, scene.lines.size());
+    for (const uint32_t point : scene.points) EXPECT_LT(point, scene.positions.size());
+    for (const glm::uvec2& line : scene.lines) {
+        ASSERT_LT(std::max(line.x, line.y), scene.positions.size());
+        EXPECT_NE(scene.positions[line.x], scene.positions[line.y]);
+    }
     for (const Material& material : scene.materials)
         EXPECT_LT(material.texture, static_cast<int>(scene.textures.size()));
 }

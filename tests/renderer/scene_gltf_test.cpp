@@ -335,26 +335,111 @@ TEST(Gltf, RefusesAMissingTextureOnlyIfItIsDrawn) {
                 HasSubstr("images[0].uri: expected an image file, found no readable file \"gone.png\""));
 }
 
-TEST(Gltf, DrawsBlendAsMaskAndSaysSo) {
+TEST(Gltf, ReadsHowAMaterialBlends) {
     Document document = triangleDocument();
     document.root["meshes"][0]["primitives"][0]["material"] = 0;
-    document.root["materials"] = {{{"name", "water"}, {"alphaMode", "BLEND"}}};
+    const auto blendingOf = [&](const json& material) {
+        document.root["materials"] = {material};
+        const Scene scene = load(document.gltf());
+        EXPECT_LT(scene.materials[0].alphaCutoff, 0) << "nothing is cut off";
+        EXPECT_TRUE(scene.notes.empty());
+        return scene.materials[0].blending;
+    };
+    EXPECT_EQ(blendingOf({{"name", "stone"}}), Blending::none);
+    EXPECT_EQ(blendingOf({{"alphaMode", "BLEND"}}), Blending::alpha);
+    EXPECT_EQ(blendingOf({{"alphaMode", "BLEND"}, {"extras", {{"author", "me"}}}}), Blending::alpha);
+    EXPECT_EQ(blendingOf({{"alphaMode", "BLEND"}, {"extras", {{"blending", "additive"}}}}),
+              Blending::additive);
+}
+
+TEST(Gltf, RefusesABlendingItDoesNotKnow) {
+    Document document = triangleDocument();
+    document.root["meshes"][0]["primitives"][0]["material"] = 0;
+    const auto refusalOf = [&](const json& material) {
+        document.root["materials"] = {material};
+        return refusal(document.gltf());
+    };
+    EXPECT_THAT(refusalOf({{"alphaMode", "BLEND"}, {"extras", {{"blending", "screen"}}}}),
+                HasSubstr("materials[0].extras.blending: expected \"additive\", found \"screen\""));
+    EXPECT_THAT(refusalOf({{"alphaMode", "BLEND"}, {"extras", {{"blending", 1}}}}),
+                HasSubstr("materials[0].extras.blending: expected \"additive\", found no text"));
+    EXPECT_THAT(refusalOf({{"extras", {{"blending", "additive"}}}}),
+                HasSubstr("materials[0].alphaMode: expected BLEND, because"));
+    EXPECT_THAT(refusalOf({{"alphaMode", "GLASS"}}), HasSubstr("expected OPAQUE, MASK or BLEND"));
+}
+
+// Ends of all lines, or all points, in scene coordinates.
+std::vector<glm::dvec3> strokeEnds(const Scene& scene) {
+    std::vector<glm::dvec3> ends;
+    for (const uint32_t point : scene.points) ends.push_back(inScene(scene, point));
+    for (const glm::uvec2& line : scene.lines) {
+        ends.push_back(inScene(scene, line.x));
+        ends.push_back(inScene(scene, line.y));
+    }
+    return ends;
+}
+
+TEST(Gltf, ReadsPointsAndLines) {
+    const std::vector<float> corners{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1};
+    const glm::dvec3 a(10, 0, 0), b(12, 0, 0), c(12, 2, 0), d(10, 2, 0), e(10, 0, 2);
+    const std::vector<std::vector<glm::dvec3>> expected{{a, b, c, d, e},  // points
+                                                        {a, b, c, d},     // lines: the fifth is left over
+                                                        {a, b, b, c, c, d, d, e, e, a},  // loop
+                                                        {a, b, b, c, c, d, d, e}};       // strip
+    for (const bool isIndexed : {false, true})
+        for (size_t mode = 0; mode < 4; ++mode) {
+            Document document;
+            json& primitive = document.addPrimitive({{"POSITION", document.addVec3(corners)}});
+            primitive["mode"] = mode;
+            if (isIndexed)
+                primitive["indices"] =
+                    document.add(std::vector<uint8_t>{0, 1, 2, 3, 4}, kUnsignedByte, "SCALAR");
+            document.root["nodes"][0]["scale"] = {2, 2, 2};
+            document.root["nodes"][0]["translation"] = {10, 0, 0};
+            const Scene scene = load(document.gltf());
+            EXPECT_EQ(strokeEnds(scene), expected[mode]) << mode;
+            EXPECT_TRUE(scene.triangles.empty());
+            EXPECT_TRUE(scene.notes.empty());
+            EXPECT_EQ(scene.originM, glm::dvec3(11, 1, mode == 1 ? 0 : 1)) << "the middle of what is drawn";
+        }
+}
+
+TEST(Gltf, StrokesWithoutNormalsAreUnlit) {
+    Document document = triangleDocument();
+    const int normals = document.addVec3({0, 0, 2, 0, 0, 2, 0, 0, 2});
+    document.addPrimitive({{"POSITION", 0}})["mode"] = 3;
+    document.addPrimitive({{"POSITION", 0}, {"NORMAL", normals}})["mode"] = 3;
+    document.addPrimitive({{"POSITION", 0}})["mode"] = 0;
+    document.root["materials"] = {{{"alphaMode", "BLEND"}}};
+    for (json& primitive : document.root["meshes"][0]["primitives"]) primitive["material"] = 0;
     const Scene scene = load(document.gltf());
-    EXPECT_FLOAT_EQ(scene.materials[0].alphaCutoff, 0.5f);
-    EXPECT_THAT(scene.notes, Contains(HasSubstr("\"water\": alphaMode BLEND is drawn as MASK")));
+    ASSERT_EQ(scene.lineRanges.size(), 2u);
+    const Material& bare = scene.materials[scene.lineRanges[0].material];
+    EXPECT_TRUE(bare.unlit);
+    EXPECT_EQ(bare.blending, Blending::alpha) << "it is the same otherwise";
+    EXPECT_FALSE(scene.materials[scene.lineRanges[1].material].unlit);
+    EXPECT_EQ(scene.normals[scene.lines[2].x], glm::vec3(0, 0, 1));
+    EXPECT_EQ(scene.pointRanges[0].material, scene.lineRanges[0].material);
+    EXPECT_FALSE(scene.materials[scene.ranges[0].material].unlit) << "the triangle keeps its light";
+}
+
+TEST(Gltf, DropsStrokesThatCannotBeDrawn) {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    Document document;
+    const int positions = document.addVec3({0, 0, 0, kNaN, 0, 0, 3, 0, 0, 3, 0, 0, 0, 0, 0});
+    for (const int mode : {0, 3}) document.addPrimitive({{"POSITION", positions}})["mode"] = mode;
+    const Scene scene = load(document.gltf());
+    EXPECT_EQ(scene.points.size(), 4u);
+    EXPECT_EQ(scene.lines.size(), 1u);
+    EXPECT_THAT(scene.notes, Contains(HasSubstr("dropped 4 points or lines")));
 }
 
 TEST(Gltf, NotesWhatItDoesNotDraw) {
     Document document = triangleDocument();
-    document.addPrimitive({{"POSITION", 0}})["mode"] = 0;
-    document.addPrimitive({{"POSITION", 0}})["mode"] = 3;
-    document.addPrimitive({{"POSITION", 0}})["mode"] = 1;
     document.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 0;
     document.root["scenes"].push_back({{"nodes", {0}}});
     const Scene scene = load(document.gltf());
     EXPECT_EQ(scene.triangles.size(), 1u);
-    EXPECT_THAT(scene.notes, Contains(HasSubstr("skipped 1 primitives of points")));
-    EXPECT_THAT(scene.notes, Contains(HasSubstr("skipped 2 primitives of lines")));
     EXPECT_THAT(scene.notes, Contains(HasSubstr("COLOR_0")));
     EXPECT_THAT(scene.notes, Contains(HasSubstr("of 2 scenes")));
 }

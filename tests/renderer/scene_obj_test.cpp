@@ -58,6 +58,28 @@ TEST(Obj, ReadsColourAndTexture) {
         << "row 0 is the image's top";
 }
 
+TEST(Obj, DissolvesByAlpha) {
+    const test::TemporaryFolder folder;
+    const auto sceneWith = [&](const std::string& lines) {
+        folder.write("square.mtl", "newmtl red\n" + lines);
+        return loadScene(folder.write("square.obj", kSquare));
+    };
+    const auto blendingIn = [](const Scene& scene) {
+        const Material& material = scene.materials[scene.ranges[0].material];
+        EXPECT_LT(material.alphaCutoff, 0) << "nothing is cut off";
+        return material.blending;
+    };
+    EXPECT_EQ(blendingIn(sceneWith("d 1\n")), Blending::none);
+    const Scene half = sceneWith("d 0.5\n");
+    EXPECT_EQ(blendingIn(half), Blending::alpha);
+    EXPECT_EQ(half.materials[half.ranges[0].material].baseColor.a, 0.5f);
+    EXPECT_TRUE(half.notes.empty());
+    EXPECT_EQ(blendingIn(sceneWith("map_Kd leaf.png\nmap_d leaf.png\n")), Blending::alpha);
+    const Scene other = sceneWith("map_Kd leaf.png\nmap_d mask.png\n");
+    EXPECT_EQ(blendingIn(other), Blending::none);
+    EXPECT_THAT(other.notes, Contains(HasSubstr("map_d is ignored")));
+}
+
 TEST(Obj, NotesAMissingTexture) {
     const test::TemporaryFolder folder;
     folder.write("square.mtl", "newmtl red\nKd 1 0 0\nmap_Kd gone.png\n");
@@ -86,10 +108,31 @@ TEST(Obj, DropsTrianglesThatCannotBeDrawn) {
                 Contains(HasSubstr("dropped 2 triangles with non-finite positions or zero area")));
 }
 
+TEST(Obj, ReadsPointsAndLines) {
+    const test::TemporaryFolder folder;
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    for (const bool hasFace : {false, true}) {
+        const Scene scene = loadScene(
+            folder.write("a.obj", vertices + (hasFace ? "f 1 2 3 4\n" : "") + "l 1 2 3\np 4\nl 4 1\n"));
+        test::expectSound(scene);
+        EXPECT_EQ(scene.triangles.size(), hasFace ? 2u : 0u);
+        std::vector<glm::dvec3> ends;
+        for (const glm::uvec2& line : scene.lines)
+            for (const uint32_t end : {line.x, line.y})
+                ends.push_back(scene.originM + glm::dvec3(scene.positions[end]));
+        const glm::dvec3 a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0);
+        EXPECT_THAT(ends, testing::ElementsAre(a, b, b, c, d, a));
+        ASSERT_EQ(scene.points.size(), 1u);
+        EXPECT_EQ(scene.originM + glm::dvec3(scene.positions[scene.points[0]]), d);
+        EXPECT_TRUE(scene.materials[scene.lineRanges[0].material].unlit);
+        EXPECT_TRUE(scene.notes.empty());
+    }
+}
+
 TEST(Obj, RefusesFilesWithNothingToDraw) {
     const test::TemporaryFolder folder;
     for (const char* content :
-         {"hello", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n", "f 1 2 3\n",
+         {"hello", "v 0 0 0\n", "v 0 0 0\nv 0 0 0\nl 1 2\n", "f 1 2 3\n",
           "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n"}) {
         const std::string path = folder.write("a.obj", content);
         EXPECT_THAT(test::messageOf<InputError>([&] { loadScene(path); }), HasSubstr("a.obj: expected"))

@@ -104,4 +104,32 @@ inline Material texturedMaterial(Scene& scene, Texture texture) {
     return material;
 }
 
+inline uint32_t addVertex(Scene& scene, glm::vec3 position, glm::vec2 uv = {}, glm::vec3 normal = {0, 1, 0}) {
+    scene.positions.push_back(position);
+    scene.normals.push_back(normal);
+    scene.uvs.push_back(uv);
+    return static_cast<uint32_t>(scene.positions.size()) - 1;
+}
+
+// Points and lines with a material of their own.
+inline void addPoints(Scene& scene, const Material& material, const std::vector<glm::vec3>& positions) {
+    scene.pointRanges.push_back({static_cast<uint32_t>(scene.materials.size()),
+                                 static_cast<uint32_t>(scene.points.size()),
+                                 static_cast<uint32_t>(positions.size())});
+    scene.materials.push_back(material);
+    for (const glm::vec3 position : positions) scene.points.push_back(addVertex(scene, position));
+}
+
+inline void addLines(Scene& scene, const Material& material,
+                     const std::vector<std::array<glm::vec3, 2>>& lines) {
+    scene.lineRanges.push_back({static_cast<uint32_t>(scene.materials.size()),
+                                static_cast<uint32_t>(scene.lines.size()),
+                                static_cast<uint32_t>(lines.size())});
+    scene.materials.push_back(material);
+    for (const auto& [from, to] : lines) {
+        const uint32_t first = addVertex(scene, from, {0, 0});
+        scene.lines.emplace_back(first, addVertex(scene, to, {1, 0}));
+    }
+}
+
 }  // namespace curvewall
