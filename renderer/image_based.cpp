@@ -14,7 +14,8 @@ GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double 
 ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs,
                                        const GpuScene& scene, const GpuSource& source)
     : scene_(scene), source_(source) {
-    for (const GpuPieces& face : source.faces) faces_.emplace_back(programs, scene, face, nullptr, PieceOwners{});
+    for (const GpuPieces& face : source.faces)
+        faces_.emplace_back(programs, scene, face, nullptr, PieceOwners{});
 }
 
 void ImageBasedRenderer::record(const SceneView& view, const FacePictures& pictures,
