@@ -1,5 +1,7 @@
 #include "renderer/blended_triangles.h"
 
+#include "renderer/meshlets.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -46,18 +48,37 @@ void BlendedTriangles::sortFor(const SceneView& view) {
     upload();
 }
 
+std::vector<glm::uvec3> BlendedTriangles::corners() const {
+    std::vector<glm::uvec3> corners;
+    for (const Triangle& triangle : triangles_) corners.push_back(triangle.corners);
+    return corners;
+}
+
+void BlendedTriangles::setAcross(std::vector<uint32_t> across) {
+    across_ = std::move(across);
+    sortedAcross_.reserve(across_.size());
+    chunk_.across = makeBuffer(nullptr, sizeof(uint32_t) * across_.size(), GL_DYNAMIC_STORAGE_BIT);
+    sortedFor_.reset();
+}
+
 void BlendedTriangles::upload() {
     corners_.clear();
     meshlets_.clear();
+    sortedAcross_.clear();
     chunk_.ranges.clear();
     for (const Key& key : keys_) {
         const Triangle& triangle = triangles_[key.triangle];
         const auto at = static_cast<uint32_t>(corners_.size());
         corners_.push_back(triangle.corners);
+        if (!across_.empty()) {
+            const auto edges = across_.begin() + static_cast<std::ptrdiff_t>(3 * size_t{key.triangle});
+            sortedAcross_.insert(sortedAcross_.end(), edges, edges + 3);
+        }
         if (chunk_.ranges.empty() || chunk_.ranges.back().material != triangle.material)
-            chunk_.ranges.push_back({triangle.material, at, 0, static_cast<uint32_t>(meshlets_.size()), 0});
+            chunk_.ranges.push_back({triangle.material, at, 0, static_cast<uint32_t>(meshlets_.size()), 0,
+                                     triangle.isSingleSided});
         ChunkRange& range = chunk_.ranges.back();
-        if (range.triangleCount % kMostMeshletTriangles == 0) {
+        if (range.triangleCount % kMeshletTriangles == 0) {
             // What lies at one distance all around the eye is bounded by no sphere that would help.
             GpuMeshlet& meshlet = meshlets_.emplace_back();
             meshlet.sphere.w = std::numeric_limits<float>::max();
@@ -71,6 +92,7 @@ void BlendedTriangles::upload() {
     chunk_.meshletCount = static_cast<uint32_t>(meshlets_.size());
     replace(chunk_.corners, corners_);
     replace(chunk_.meshlets, meshlets_);
+    if (!across_.empty()) replace(chunk_.across, sortedAcross_);
 }
 
 }  // namespace curvewall

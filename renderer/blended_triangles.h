@@ -28,6 +28,12 @@ public:
 
     const SceneChunk& chunk() const { return chunk_; }
 
+    // Unsorted, as they came.
+    std::vector<glm::uvec3> corners() const;
+    // What lies across the three edges of each, unsorted; see gpu_edges.h. It is sorted with them from then
+    // on.
+    void setAcross(std::vector<uint32_t> across);
+
 private:
     void upload();
 
@@ -41,6 +47,7 @@ private:
     std::vector<Key> keys_;
     std::vector<glm::uvec3> corners_;
     std::vector<GpuMeshlet> meshlets_;
+    std::vector<uint32_t> across_, sortedAcross_;  // empty where no style has asked
 };
 
 }  // namespace curvewall

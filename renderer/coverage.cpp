@@ -1,5 +1,7 @@
 #include "renderer/coverage.h"
 
+#include "renderer/meshlets.h"
+
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace curvewall {
 namespace {
 
 constexpr uint32_t kGroupSize = 64;
-static_assert(kGroupSize == kMostMeshletTriangles, "a meshlet is one group of coverage.comp");
+static_assert(kGroupSize == kMeshletTriangles, "a meshlet is one group of coverage.comp");
 constexpr uint64_t kPairBytes = 8;
 // OpenGL promises that many groups along one axis.
 constexpr uint32_t kMostPartMeshlets = 65'535;

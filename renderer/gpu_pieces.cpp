@@ -104,7 +104,9 @@ GpuPieces uploadPieces(const PieceMesh& mesh) {
         gpu.clipPlanes = std::max(gpu.clipPlanes, static_cast<int>(innerEdgePlanes(mesh, piece).size()));
     for (const Piece& piece : mesh.pieces)
         gpu.frontIsClockwise.push_back(glm::determinant(piece.screenFromRay) > 0);
-    gpu.pieces = makeBuffer(std::span<const glm::vec4>(pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes))));
+    const std::vector<glm::vec4> rows = pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes));
+    gpu.firstRows = {glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
+    gpu.pieces = makeBuffer(std::span<const glm::vec4>(rows));
     const std::vector<GpuConeNode> nodes = gpuNodes(mesh);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));

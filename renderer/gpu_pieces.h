@@ -7,6 +7,7 @@
 
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct GpuPieces {
     int clipPlanes = 0;  // planes a piece is clipped by; edges on the display's border need none
     std::vector<bool>
         frontIsClockwise;  // of each piece: how triangles seen from the front turn on the screen
-    GlBuffer pieces;       // three rows of H to clip space, then clipPlanes planes, each a vec4
+    std::array<glm::vec3, 3> firstRows{};  // of the first piece: H to clip space
+    GlBuffer pieces;  // three rows of H to clip space, then clipPlanes planes, each a vec4
     uint32_t nodeCount = 0;
     GlBuffer nodes;    // the piece tree
     GlBuffer corners;  // six rays a piece with its guard, the last one repeated, each a vec4

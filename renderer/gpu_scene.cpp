@@ -2,12 +2,12 @@
 
 #include "calibration/errors.h"
 #include "renderer/blended_triangles.h"
-
-#include <glm/geometric.hpp>
+#include "renderer/meshlets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -25,6 +25,18 @@ uint32_t packNormal(glm::vec3 normal) {
     return bits;
 }
 
+GpuMeshlet gpuMeshlet(const Meshlet& meshlet, bool isSingleSided) {
+    GpuMeshlet gpu;
+    gpu.sphere = glm::vec4(meshlet.centreM, meshlet.radiusM);
+    gpu.cone = glm::vec4(meshlet.coneAxis, meshlet.coneReachM);
+    gpu.firstTriangle = meshlet.firstTriangle;
+    gpu.triangleCount = meshlet.triangleCount;
+    gpu.isSingleSided = isSingleSided ? 1 : 0;
+    gpu.coneSine = meshlet.coneSine;
+    gpu.coneCosine = meshlet.coneCosine;
+    return gpu;
+}
+
 // Collects a chunk's triangles and renumbers their vertices.
 class ChunkBuilder {
 public:
@@ -36,8 +48,10 @@ public:
     bool isEmpty() const { return triangles_.empty(); }
 
     void add(glm::uvec3 triangle, uint32_t material) {
-        if (ranges_.empty() || ranges_.back().material != material)
-            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0, 0, 0});
+        if (ranges_.empty() || ranges_.back().material != material) {
+            const bool isSingleSided = !scene_.materials[material].doubleSided;
+            ranges_.push_back({material, static_cast<uint32_t>(triangles_.size()), 0, 0, 0, isSingleSided});
+        }
         ++ranges_.back().triangleCount;
         triangles_.push_back(localCorners(triangle));
     }
@@ -56,16 +70,16 @@ public:
     }
 
     SceneChunk upload() {
-        const std::vector<GpuMeshlet> meshlets = cutIntoMeshlets();
+        const std::vector<GpuMeshlet> meshlets = orderByMeshlets();
         SceneChunk chunk = uploadVertices();
         chunk.corners = makeBuffer(std::span<const glm::uvec3>(triangles_));
         chunk.meshlets = makeBuffer(std::span<const GpuMeshlet>(meshlets));
         chunk.vertexArray = vertexArrayOver(chunk);
         chunk.triangleCount = static_cast<uint32_t>(triangles_.size());
         chunk.meshletCount = static_cast<uint32_t>(meshlets.size());
-        chunk.ranges = std::move(ranges_);
+        chunk.ranges = std::exchange(ranges_, {});
+        chunk.meshletBounds = std::exchange(meshlets_, {});
         triangles_.clear();
-        ranges_.clear();
         return chunk;
     }
 
@@ -88,24 +102,25 @@ public:
     }
 
 private:
-    std::vector<GpuMeshlet> cutIntoMeshlets() {
+    // Brings the triangles into the order of their meshlets.
+    std::vector<GpuMeshlet> orderByMeshlets() {
+        std::vector<glm::vec3> positions;
+        for (uint32_t vertex : vertices_) positions.push_back(scene_.positions[vertex]);
         std::vector<GpuMeshlet> meshlets;
         for (ChunkRange& range : ranges_) {
+            const std::vector<glm::uvec3> before(
+                triangles_.begin() + range.firstTriangle,
+                triangles_.begin() + range.firstTriangle + range.triangleCount);
+            const Meshlets cut = cutIntoMeshlets(positions, before);
+            for (uint32_t i = 0; i < range.triangleCount; ++i)
+                triangles_[range.firstTriangle + i] = before[cut.order[i]];
             range.firstMeshlet = static_cast<uint32_t>(meshlets.size());
-            for (uint32_t i = 0; i < range.triangleCount; i += kMostMeshletTriangles) {
-                GpuMeshlet& m = meshlets.emplace_back();
-                m.firstTriangle = range.firstTriangle + i;
-                m.triangleCount = std::min(kMostMeshletTriangles, range.triangleCount - i);
-                m.isSingleSided = scene_.materials[range.material].doubleSided ? 0 : 1;
-                glm::vec3 lo(1e30f), hi(-1e30f);
-                for (uint32_t t = 0; t < m.triangleCount; ++t)
-                    for (int k = 0; k < 3; ++k) {
-                        lo = glm::min(lo, scene_.positions[vertices_[triangles_[m.firstTriangle + t][k]]]);
-                        hi = glm::max(hi, scene_.positions[vertices_[triangles_[m.firstTriangle + t][k]]]);
-                    }
-                m.sphere = glm::vec4((lo + hi) * 0.5f, glm::length(hi - lo) * 0.5001f);
+            range.meshletCount = static_cast<uint32_t>(cut.meshlets.size());
+            for (Meshlet meshlet : cut.meshlets) {
+                meshlet.firstTriangle += range.firstTriangle;
+                meshlets_.push_back(meshlet);
+                meshlets.push_back(gpuMeshlet(meshlet, range.isSingleSided));
             }
-            range.meshletCount = static_cast<uint32_t>(meshlets.size()) - range.firstMeshlet;
         }
         return meshlets;
     }
@@ -115,6 +130,7 @@ private:
     std::vector<uint32_t> vertices_;  // chunk vertex -> scene vertex
     std::vector<glm::uvec3> triangles_;
     std::vector<ChunkRange> ranges_;
+    std::vector<Meshlet> meshlets_;
 };
 
 std::vector<SceneChunk> uploadChunks(const Scene& scene) {

@@ -2,32 +2,36 @@
 // A scene in GPU memory.
 
 #include "renderer/gl/gl_objects.h"
+#include "renderer/meshlets.h"
 #include "renderer/scene/scene.h"
 
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <vector>
 
 namespace curvewall {
-
-inline constexpr uint32_t kMostMeshletTriangles = 64;
 
 // A run of a chunk's triangles that share a material, in whole meshlets.
 struct ChunkRange {
     uint32_t material = 0;
     uint32_t firstTriangle = 0, triangleCount = 0;
     uint32_t firstMeshlet = 0, meshletCount = 0;
+    bool isSingleSided = false;
 };
 
-// As shaders/meshlet.glsl reads it.
+// As shaders/meshlet.glsl reads it; see Meshlet.
 struct GpuMeshlet {
-    glm::vec4 sphere{0};         // centre relative to the scene's origin, radius
-    glm::vec4 cone{0, 0, 1, 2};  // axis and cutoff of the normals; a cutoff above 1 tells nothing
+    glm::vec4 sphere{0};  // centre relative to the scene's origin, radius
+    glm::vec4 cone{0, 0, 1, std::numeric_limits<float>::max()};  // axis and reach
     uint32_t firstTriangle = 0;
     uint32_t triangleCount = 0;
     uint32_t isSingleSided = 0;
-    uint32_t reserved = 0;
+    float coneSine = 0;
+    float coneCosine = 1;
+    uint32_t reserved[3]{};
 };
 
 // A part of a scene whose buffers stay below the smallest storage block limit in use (128 MB on llvmpipe).
@@ -37,11 +41,13 @@ struct SceneChunk {
     GlBuffer uvs;
     GlBuffer corners;   // three vertex indices a triangle, meshlet by meshlet
     GlBuffer meshlets;  // GpuMeshlet
+    GlBuffer across;    // what lies beyond each triangle's edges; see gpu_edges.h
     GlVertexArray vertexArray;
     uint32_t triangleCount = 0;
     uint32_t meshletCount = 0;
     std::vector<ChunkRange> ranges;
-    bool changes = false;  // ranges and meshlets are other ones in every frame
+    std::vector<Meshlet> meshletBounds;  // for the CPU; none of a chunk that changes
+    bool changes = false;                // ranges and meshlets are other ones in every frame
 };
 
 // Positions, normals and uvs as vertex attributes 0 to 2, corners as indices.

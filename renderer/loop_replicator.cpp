@@ -7,15 +7,16 @@ namespace curvewall {
 void LoopReplicator::draw(const PieceDraw& draw) {
     bindStorage(2, draw.pieces.pieces);
     for (const SceneChunk& chunk : chunks_) {
-        glBindVertexArray(chunk.vertexArray.id());
+        draw.materials.bindVertices(chunk);
         for (int piece = 0; piece < draw.pieces.pieceCount; ++piece) {
             for (const ChunkRange& range : chunk.ranges) {
                 const GLuint program = draw.materials.bind(range.material);
-                glProgramUniform1i(program, 18, piece);
+                glProgramUniform1ui(program, 18, static_cast<GLuint>(piece));
                 draw.materials.programs.setFacing(program,
                                                   draw.pieces.frontIsClockwise[static_cast<size_t>(piece)]);
-                glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * range.triangleCount), GL_UNSIGNED_INT,
-                               reinterpret_cast<const void*>(size_t{12} * range.firstTriangle));
+                range_.clear();
+                range_.add(range.firstTriangle, range.triangleCount);
+                range_.draw(draw.materials.programs);
                 pairCount_ += range.triangleCount;
             }
         }

@@ -2,6 +2,7 @@
 // The straightforward baseline of Lorenz and Doellner (2009), section 2: the whole scene once a piece.
 
 #include "renderer/replicator.h"
+#include "renderer/triangle_runs.h"
 
 namespace curvewall {
 
@@ -14,6 +15,7 @@ public:
 
 private:
     std::span<const SceneChunk> chunks_;
+    TriangleRuns range_;
     uint64_t pairCount_ = 0;
 };
 

@@ -15,4 +15,17 @@ GLuint MaterialBinder::bind(uint32_t index) const {
     return chosen.program;
 }
 
+void MaterialBinder::bindVertices(const SceneChunk& chunk) const {
+    glBindVertexArray(chunk.vertexArray.id());
+    if (programs.drawsEdges()) bindPulled(chunk);
+}
+
+void MaterialBinder::bindPulled(const SceneChunk& chunk) const {
+    bindStorage(0, chunk.positions);
+    bindStorage(1, chunk.corners);
+    bindStorage(3, chunk.normals);
+    bindStorage(4, chunk.uvs);
+    if (programs.drawsEdges()) bindStorage(7, chunk.across);
+}
+
 }  // namespace curvewall

@@ -12,6 +12,10 @@ struct MaterialBinder {
 
     // The program, which is current then.
     GLuint bind(uint32_t material) const;
+
+    // Makes a chunk what plain vertices come from, or what corners are pulled from.
+    void bindVertices(const SceneChunk& chunk) const;
+    void bindPulled(const SceneChunk& chunk) const;
 };
 
 }  // namespace curvewall

@@ -21,7 +21,10 @@ constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
 constexpr Named<SourceKind> kSources[] = {{SourceKind::cube, "cube"}, {SourceKind::planar, "planar"}};
 constexpr Named<SourceFilter> kFilters[] = {
     {SourceFilter::nearest, "nearest"}, {SourceFilter::linear, "linear"}, {SourceFilter::bicubic, "bicubic"}};
-constexpr Named<Style> kStyles[] = {{Style::textured, "textured"}, {Style::unlit, "unlit"}};
+constexpr Named<Style> kStyles[] = {{Style::textured, "textured"},
+                                    {Style::unlit, "unlit"},
+                                    {Style::wireframe, "wireframe"},
+                                    {Style::penAndInk, "pen-and-ink"}};
 constexpr Named<OutputKind> kOutputKinds[] = {{OutputKind::color, "color"},
                                               {OutputKind::depth, "depth"},
                                               {OutputKind::coverage, "coverage"},

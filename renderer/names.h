@@ -29,7 +29,7 @@ std::string_view nameOf(Style style);
 std::string_view nameOf(OutputKind output);
 std::string_view nameOf(ImageFormat format);
 
-// Every name, for messages: "textured or unlit".
+// Every name, for messages: "color, depth, coverage or position".
 std::string methodNames();
 std::string engineNames();
 std::string sourceNames();

@@ -16,11 +16,8 @@ void PairReplicator::draw(const PieceDraw& draw) {
 void PairReplicator::drawPairs(const ScenePart& part, const PieceDraw& draw) const {
     glBindVertexArray(emptyVertexArray_.id());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, coverage_.commands().id());
-    bindStorage(0, part.chunk->positions);
-    bindStorage(1, part.chunk->corners);
+    draw.materials.bindPulled(*part.chunk);
     bindStorage(2, draw.pieces.pieces);
-    bindStorage(3, part.chunk->normals);
-    bindStorage(4, part.chunk->uvs);
     bindStorage(5, coverage_.commands());
     bindStorage(6, coverage_.pairs());
     for (size_t r = 0; r < part.ranges.size(); ++r) {

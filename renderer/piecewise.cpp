@@ -53,6 +53,7 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
       owners_(owners),
       programs_(std::move(programs)),
       emptyVertexArray_(makeVertexArray()) {
+    if (!replicators_) plainDraw_.emplace(pieces);
     if (owners.ofPixels && owners.ofPixels->hasHoles && output() != OutputKind::coverage)
         holesProgram_ =
             makeProgram({{GL_VERTEX_SHADER, "whole_screen.vert"}, {GL_FRAGMENT_SHADER, "holes.frag"}});
@@ -60,9 +61,7 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
     if (holesProgram_) closeHoles();
-    programs_->setFrame(view, pieces_.frontIsClockwise.front(),
-                        2.0f * pass.shiftPx / glm::vec2(pieces_.sizePx),
-                        owners_.ofSamples ? pass.firstSample : 0);
+    programs_->setFrame(view, pieces_, pass);
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     enableClipPlanes(pieces_.clipPlanes);
@@ -73,7 +72,7 @@ void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
     if (replicators_)
         replicators_->opaque->draw(draw);
     else
-        recordPlain(scene_.chunks, draw);
+        plainDraw_->draw(scene_.chunks, draw);
     // Distances and points are those of what hides the rest.
     if (scene_.blended && (output() == OutputKind::color || output() == OutputKind::coverage))
         recordBlended(draw);
@@ -98,25 +97,13 @@ void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {
     if (replicators_)
         replicators_->blended->draw(draw);
     else
-        recordPlain(blendedChunk(scene_), draw);
+        plainDraw_->draw(blendedChunk(scene_), draw);
     if (mixes) glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }
 
-void PiecewiseRenderer::recordPlain(std::span<const SceneChunk> chunks, const PieceDraw& draw) {
-    bindStorage(2, draw.pieces.pieces);
-    for (const SceneChunk& chunk : chunks) {
-        glBindVertexArray(chunk.vertexArray.id());
-        for (const ChunkRange& range : chunk.ranges) {
-            draw.materials.bind(range.material);
-            glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * range.triangleCount), GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(size_t{12} * range.firstTriangle));
-        }
-    }
-}
-
 std::optional<uint64_t> PiecewiseRenderer::finishFrame() {
-    if (!replicators_) return scene_.scene->triangles.size();
+    if (!replicators_) return plainDraw_->takeTriangleCount();
     FrameOutcome outcome = replicators_->opaque->finishFrame();
     if (replicators_->blended) {
         const FrameOutcome blended = replicators_->blended->finishFrame();

@@ -3,6 +3,7 @@
 // just the pieces that it touches, each piece a plain perspective projection.
 
 #include "renderer/frame_pass.h"
+#include "renderer/plain_draw.h"
 #include "renderer/replicator.h"
 #include "renderer/scene_programs.h"
 
@@ -54,12 +55,12 @@ public:
 private:
     void closeHoles() const;
     void recordBlended(const PieceDraw& draw);
-    static void recordPlain(std::span<const SceneChunk> chunks, const PieceDraw& draw);
     OutputKind output() const { return programs_->look().output; }
 
     const GpuScene& scene_;
     const GpuPieces& pieces_;
     SceneReplicators* replicators_;  // null: one plain draw
+    std::optional<PlainDraw> plainDraw_;
     PieceOwners owners_;
     std::shared_ptr<const ScenePrograms> programs_;
     GlProgram holesProgram_;  // where there are holes

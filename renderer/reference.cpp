@@ -2,6 +2,8 @@
 
 #include "calibration/errors.h"
 #include "calibration/parallel.h"
+#include "renderer/edge_strokes.h"
+#include "renderer/line_styles.h"
 #include "renderer/ray_scene.h"
 #include "renderer/sample_pattern.h"
 #include "renderer/shading.h"
@@ -27,6 +29,8 @@ struct View {
     glm::dmat3 sceneFromWall;
     glm::dvec3 eyeM;     // relative to the scene's origin
     double footprintPx;  // side of the square that one sample stands for
+    Style style;
+    const EdgeStrokes* strokes;  // of styles that draw edges
 };
 
 struct SampleRay {
@@ -140,15 +144,24 @@ bool isDrawn(const Scene& scene, const View& view, const SampleRay& ray, const R
     return baseColorAt(scene, material, triangle, view, ray.px, weights).a >= material.alphaCutoff;
 }
 
-glm::vec3 colorOf(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit,
-                  Style style) {
+glm::vec3 surfaceColor(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
     const EyeTriangle triangle(scene, hit.triangle, view.eyeM);
     const Material& material = materialOf(scene, hit.triangle);
     const glm::dvec3 weights = triangle.weightsAt(distanceTo(triangle, ray, hit) * ray.inScene.direction);
     const glm::vec3 base(baseColorAt(scene, material, triangle, view, ray.px, weights));
-    if (style == Style::unlit || material.unlit) return base;
+    if (view.style == Style::unlit || material.unlit) return base;
     const glm::vec3 normal(glm::normalize(triangle.interpolate(scene.normals, weights)));
     return base * shading::lightOnSurface(triangle.facesEye() ? normal : -normal);
+}
+
+glm::vec3 colorOf(const Scene& scene, const View& view, const SampleRay& ray, const RayHit& hit) {
+    const glm::vec3 surface = surfaceColor(scene, view, ray, hit);
+    if (!view.strokes) return surface;
+    const float line = view.strokes->coverage(
+        hit.triangle, {view.projection, view.sceneFromWall, view.eyeM, view.footprintPx}, ray.px);
+    if (view.style == Style::wireframe) return line_styles::wireframeColor(surface, line);
+    return line_styles::penAndInkColor(surface, glm::vec2(ray.px), line,
+                                       static_cast<float>(view.footprintPx));
 }
 
 // A ray through an edge meets the triangles on both sides there; that is one crossing of one surface.
@@ -185,10 +198,10 @@ struct ReferenceRenderer::Impl {
                                [&](const RayHit& hit) { return isDrawn(*scene, view, ray, hit); });
     }
 
-    glm::vec3 color(const View& view, glm::dvec2 px, Style style, glm::vec3 background) const {
+    glm::vec3 color(const View& view, glm::dvec2 px, glm::vec3 background) const {
         const std::optional<SampleRay> ray = sampleRay(view, px);
         const std::optional<RayHit> hit = ray ? nearest(view, *ray) : std::nullopt;
-        return hit ? colorOf(*scene, view, *ray, *hit, style) : background;
+        return hit ? colorOf(*scene, view, *ray, *hit) : background;
     }
 
     std::optional<glm::dvec3> position(const View& view, glm::dvec2 px) const {
@@ -216,9 +229,14 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
                                 const Options& options) const {
     if (options.samples < 1) throw UsageError("the reference needs at least one sample a pixel");
     const bool isColor = options.output == OutputKind::color;
-    const View view{*display.projection, rotationFromOrientation(camera.orientation),
+    std::optional<EdgeStrokes> strokes;
+    if (drawsEdges(options.style, options.output)) strokes.emplace(*impl_->scene, options.style);
+    const View view{*display.projection,
+                    rotationFromOrientation(camera.orientation),
                     eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
-                    isColor ? 1 / std::sqrt(options.samples) : 1.0};
+                    isColor ? 1 / std::sqrt(options.samples) : 1.0,
+                    options.style,
+                    strokes ? &*strokes : nullptr};
 
     Frame frame{display.sizePx, channelsOf(options.output), {}};
     const auto width = static_cast<size_t>(frame.sizePx.x), channels = static_cast<size_t>(frame.channels);
@@ -233,7 +251,7 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
             case OutputKind::color: {
                 glm::dvec3 sum(0);
                 for (const glm::dvec2 offset : samplePattern(options.samples, index))
-                    sum += glm::dvec3(impl_->color(view, corner + offset, options.style, wall.background));
+                    sum += glm::dvec3(impl_->color(view, corner + offset, wall.background));
                 return put(glm::vec3(sum / static_cast<double>(options.samples)));
             }
             case OutputKind::coverage:

@@ -6,6 +6,7 @@
 #include "renderer/blended_target.h"
 #include "renderer/blending.h"
 #include "renderer/gl/egl_context.h"
+#include "renderer/gpu_edges.h"
 #include "renderer/names.h"
 #include "renderer/prepared_images.h"
 #include "renderer/prepared_scene.h"
@@ -179,6 +180,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
+    if (drawsEdges(request.style, request.output)) uploadEdges(scene->gpu);
     const auto prepared = preparedPieces(request, display);
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
@@ -221,6 +223,7 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = preparedScene(request.scene);
+    if (drawsEdges(request.style, request.output)) uploadEdges(scene->gpu);
     const auto source = images.source(request.wall, display, request.source, request.faceSizePx);
     const auto renderer = scene->images.get({source, request.style, request.output}, [&] {
         const GeometryPath onePiece;

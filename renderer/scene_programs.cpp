@@ -2,6 +2,7 @@
 
 #include "renderer/coverage.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +26,8 @@ std::string outputDefine(OutputKind output) {
 
 }  // namespace
 
-ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path) : look_(look) {
+ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
+    : look_(look), drawsEdges_(curvewall::drawsEdges(look.style, look.output)) {
     for (const Material& material : scene.materials) {
         const Variant variant = variantFor(material);
         if (programs_.contains(variant)) continue;
@@ -42,6 +44,8 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
         defineIf(variant.blended, "BLENDED");
+        defineIf(drawsEdges_, "EDGES");
+        defineIf(look.style == Style::wireframe, "WIREFRAME");
         defineIf(variant.lit, "LIT");
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");
@@ -58,7 +62,7 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
 ScenePrograms::Variant ScenePrograms::variantFor(const Material& material) const {
     const bool color = look_.output == OutputKind::color;
     const bool masked = material.alphaCutoff >= 0;
-    return {.lit = color && look_.style == Style::textured && !material.unlit,
+    return {.lit = color && look_.style != Style::unlit && !material.unlit,
             .textured = material.texture >= 0 && (color || masked),
             .masked = masked,
             .singleSided = !material.doubleSided,
@@ -74,16 +78,18 @@ ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
     return {program, variant.textured, variant.blended};
 }
 
-void ScenePrograms::setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace,
-                             int firstOwnerLayer) const {
+void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const {
+    const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(pieces.sizePx);
+    const glm::vec3 sampling(pass.shiftPx, std::exp2(pass.lodBias));
     for (const auto& [variant, entry] : programs_) {
         const GLuint program = entry.program.id();
         glProgramUniformMatrix3fv(program, 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
         glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
         glProgramUniform1f(program, 9, kNearFraction);
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
-        if (entry.owned) glProgramUniform1i(program, 17, firstOwnerLayer);
-        if (entry.checksFacing) glProgramUniform1i(program, 12, frontIsClockwise);
+        if (entry.owned) glProgramUniform1i(program, 17, pass.firstSample);
+        if (entry.checksFacing) glProgramUniform1i(program, 12, pieces.frontIsClockwise.front());
+        if (drawsEdges_) glProgramUniform3fv(program, 19, 1, &sampling[0]);
     }
 }
 

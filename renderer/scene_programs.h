@@ -1,6 +1,7 @@
 #pragma once
 // The variants of scene.vert and scene.frag that a look needs, compiled before the first frame.
 
+#include "renderer/frame_pass.h"
 #include "renderer/gl/program.h"
 #include "renderer/gpu_pieces.h"
 #include "renderer/look.h"
@@ -49,11 +50,13 @@ public:
     Chosen choose(const Material& material) const;
 
     // Sets what is the same for all materials of a pass.
-    void setFrame(const SceneView& view, bool frontIsClockwise, glm::vec2 shiftInClipSpace,
-                  int firstOwnerLayer) const;
+    void setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const;
 
     // For one of its programs: how triangles seen from the front turn on the screen.
     void setFacing(GLuint program, bool frontIsClockwise) const;
+
+    // Corners are pulled from the scene's buffers, for a plain draw too: lines need to know whose they are.
+    bool drawsEdges() const { return drawsEdges_; }
 
 private:
     struct Variant {
@@ -68,6 +71,7 @@ private:
     Variant variantFor(const Material& material) const;
 
     SceneLook look_;
+    bool drawsEdges_;
     std::map<Variant, Entry> programs_;
 };
 

@@ -1,16 +1,13 @@
-// Exclusive sum over the invocations of a group.
+// Exclusive sum over the invocations of a group. One barrier: a tree of sums would need one a step, each of which costs a
+// software renderer more than all these additions.
 
-shared uint prefixSums[GROUP_SIZE];
+shared uint groupValues[GROUP_SIZE];
 
 uint groupPrefix(uint value) {
     uint self = gl_LocalInvocationIndex;
-    prefixSums[self] = value;
+    groupValues[self] = value;
     barrier();
-    for (uint reach = 1u; reach < GROUP_SIZE; reach *= 2u) {
-        uint before = self >= reach ? prefixSums[self - reach] : 0u;
-        barrier();
-        prefixSums[self] += before;
-        barrier();
-    }
-    return prefixSums[self] - value;
+    uint sum = 0u;
+    for (uint i = 0u; i < GROUP_SIZE; ++i) sum += i < self ? groupValues[i] : 0u;
+    return sum;
 }

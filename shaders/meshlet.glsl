@@ -2,10 +2,12 @@
 
 struct Meshlet {
     vec4 sphere;  // centre, relative to the scene's origin, and radius
-    vec4 cone;    // axis and cutoff of the normals, scene axes; cutoff above 1 where they cannot tell the side
+    vec4 cone;    // of the normals: axis, scene axes, and reach; see meshlet_cone.glsl
     uint firstTriangle;
     uint triangleCount;
     uint isSingleSided;
-    uint reserved;
+    float coneSine;
+    float coneCosine;
+    uint reserved[3];
 };
 layout(std430, binding = 3) readonly buffer Meshlets { Meshlet meshlets[]; };

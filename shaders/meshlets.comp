@@ -4,6 +4,7 @@
 #include "scene_geometry.glsl"
 #include "piece_tree.glsl"
 #include "meshlet.glsl"
+#include "meshlet_cone.glsl"
 
 layout(local_size_x = GROUP_SIZE) in;
 
@@ -18,10 +19,9 @@ layout(location = 5) uniform uint meshletCount;
 #ifdef MARK
 #include "group_prefix.glsl"
 
-// Every triangle is seen from behind: meshoptimizer's test of the bounding sphere against the normal cone.
 bool isSeenFromBehind(Meshlet m, vec3 centre) {
-    if (m.isSingleSided == 0u) return false;
-    return dot(centre, wallFromScene * m.cone.xyz) >= m.cone.w * length(centre) + m.sphere.w;
+    return m.isSingleSided != 0u &&
+           isMeshletBehind(centre, wallFromScene * m.cone.xyz, m.coneSine, m.coneCosine, m.cone.w);
 }
 
 bool isOutside(ConeNode node, vec3 centre, float radius) {

@@ -15,6 +15,27 @@ layout(binding = 1) uniform isampler2DArray owners;  // the piece that owns each
 layout(location = 17) uniform int firstOwnerLayer;
 #endif
 
+#ifdef EDGES
+#include "line_styles.glsl"
+layout(location = 4) in vec3 weights;  // barycentric: weight i is 0 on edge i
+layout(location = 5) flat in vec3 edgeWidthsPx;
+layout(location = 19) uniform vec3 sampling;  // xy: how far right and down the picture is drawn, z: side of a sample, px
+
+// Weights are affine in the point; divided by w they are so on the screen of a piece, where the distance to each edge
+// is exact therefore. Pieces differ in w and in scale, which drop out (Baerentzen et al., Single-pass Wireframe
+// Rendering, 2006, has the widths by edge lengths on the screen, for which no corner may lie behind the eye).
+float coverageByEdges() {
+    vec3 onScreen = weights * gl_FragCoord.w;
+    vec3 across = dFdx(onScreen), down = dFdy(onScreen);
+    float most = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        float distancePx = distanceToLinePx(onScreen[i], vec2(across[i], down[i]));
+        most = max(most, strokeCoverage(distancePx, edgeWidthsPx[i], sampling.z));
+    }
+    return most;
+}
+#endif
+
 #ifdef TEXTURED
 layout(binding = 0) uniform sampler2D baseColorTexture;
 #endif
@@ -27,6 +48,9 @@ layout(location = 12) uniform bool frontIsClockwise;  // one piece: facing follo
 layout(location = 0) out vec4 result;
 
 void main() {
+#ifdef EDGES
+    float line = coverageByEdges();  // before anything is discarded: derivatives need their neighbours
+#endif
 #ifdef OWNED
     int owned = 0;
     for (int i = 0; i < OWNER_SAMPLES; ++i) {
@@ -65,6 +89,13 @@ void main() {
     if (behind) n = -n;
 #endif
     color *= lightOnSurface(n);
+#endif
+#ifdef EDGES
+#ifdef WIREFRAME
+    color = wireframeColor(color, line);
+#else
+    color = penAndInkColor(color, gl_FragCoord.xy - sampling.xy, line, sampling.z);
+#endif
 #endif
 #ifdef BLENDED
     result = vec4(color, base.a);

@@ -1,5 +1,6 @@
 // A triangle's corner on the screen of one piece: H r, with w = 1 on the facet. PAIRS pulls the corner of a
-// (triangle, piece) pair; without it one piece serves the whole display and corners come as plain vertices.
+// (triangle, piece) pair; without it one piece serves the whole display and corners come as plain vertices, but for EDGES,
+// which has to know what triangle they are of.
 
 #include "draw_command.glsl"
 #include "scene_geometry.glsl"
@@ -10,20 +11,26 @@ layout(location = 14) uniform vec2 shift;  // of the whole picture, clip space, 
 
 layout(location = 9) uniform float nearFraction;  // depth = nearFraction / w, reversed
 
-#ifdef PAIRS
+#if defined(PAIRS) || defined(EDGES)
+#define PULLED
 layout(std430, binding = 3) readonly buffer Normals { uint normals[]; };
 layout(std430, binding = 4) readonly buffer Uvs { vec2 uvs[]; };
-layout(std430, binding = 5) readonly buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };
-layout(location = 13) uniform uint command;
 #else
 layout(location = 0) in vec3 vertexPosition;
 layout(location = 1) in vec4 vertexNormal;
 layout(location = 2) in vec2 vertexUv;
 #endif
+#ifdef PAIRS
+layout(std430, binding = 5) readonly buffer Commands { DrawCommand commands[]; };
+layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };
+layout(location = 13) uniform uint command;
+#endif
+#ifdef EDGES
+#include "edges.glsl"
+#endif
 
 #ifdef LOOP
-layout(location = 18) uniform int piece;
+layout(location = 18) uniform uint loopPiece;
 #endif
 
 layout(location = 0) out vec3 ray;
@@ -53,25 +60,31 @@ void main() {
     // What the last instance has too much becomes a point, which is not drawn.
     bool none = index >= commands[command].endPair;
     uvec2 pair = none ? uvec2(0u) : pairs[index];
-    bool behind = (pair.x & 0x80000000u) != 0u;
-    uint vertex = corners[3u * (pair.x & 0x7fffffffu) + uint(gl_VertexID) % 3u];
-    uint row = pair.y * uint(3 + CLIP_PLANES);
+    uint triangle = pair.x & 0x7fffffffu, piece = pair.y;
+    float facing = (pair.x & 0x80000000u) != 0u ? -1.0 : 1.0;
+#else
+    uint triangle = uint(gl_VertexID) / 3u;
+#ifdef LOOP
+    uint piece = loopPiece;
+#else
+    uint piece = 0u;
+#endif
+    float facing = 1.0;  // scene.frag turns the normals
+#endif
+#ifdef PULLED
+    uint corner = uint(gl_VertexID) % 3u;
+    uint vertex = corners[3u * triangle + corner];
     ray = rayToVertex(vertex);
 #ifdef LIT
-    normal = unpackNormal(normals[vertex]) * (behind ? -1.0 : 1.0);
+    normal = unpackNormal(normals[vertex]) * facing;
 #endif
 #ifdef TEXTURED
     uv = uvs[vertex];
 #endif
-#ifdef OWNED
-    ownPiece = int(pair.y);
+#ifdef EDGES
+    sendEdges(triangle, corner);
 #endif
 #else
-#ifdef LOOP
-    uint row = uint(piece * (3 + CLIP_PLANES));
-#else
-    uint row = 0u;
-#endif
     ray = rayTo(vertexPosition);
 #ifdef LIT
     normal = vertexNormal.xyz;
@@ -79,14 +92,11 @@ void main() {
 #ifdef TEXTURED
     uv = vertexUv;
 #endif
+#endif
 #ifdef OWNED
-#ifdef LOOP
-    ownPiece = piece;
-#else
-    ownPiece = 0;
+    ownPiece = int(piece);
 #endif
-#endif
-#endif
+    uint row = piece * uint(3 + CLIP_PLANES);
     gl_Position = vec4(dot(pieces[row].xyz, ray), dot(pieces[row + 1u].xyz, ray), nearFraction,
                        dot(pieces[row + 2u].xyz, ray));
     gl_Position.xy += shift * gl_Position.w;

@@ -3,119 +3,29 @@
 // difference single precision explains.
 
 #include "calibration/projections/projection_maths.h"
-#include "renderer/gl/gl_objects.h"
-#include "tests/support/gl_fixture.h"
-#include "tests/support/random_numbers.h"
+#include "tests/support/gpu_formulas.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
-#include <sstream>
 #include <string>
-#include <vector>
 
 namespace curvewall {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr size_t kCount = 20'000;
 constexpr double kWithAtan = 5e-6;
 
-std::string fileText(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) throw std::runtime_error("cannot read " + path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-std::string shaderOf(const std::string& formula) {
-    std::string text = R"(#version 450 core
-#define SHARED_FN
-#define real float
-#define real2 vec2
-#define real3 vec3
-#define real4 vec4
-#define real3x3 mat3
-)";
-    for (const char* file :
-         {"root_ahead", "cylinder", "equirectangular", "pinhole", "radial", "sphere", "sphere_slices"})
-        text += fileText(std::string(CURVEWALL_SOURCE_DIR "/shaders/projections/") + file + ".glsl");
-    return text + R"(
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Given { vec4 given[]; };
-layout(std430, binding = 1) writeonly buffer Found { vec4 found[]; };
-layout(location = 0) uniform float terms[12];
-vec4 formula(vec4 v) { )" +
-           formula + R"( }
-void main() {
-    if (gl_GlobalInvocationID.x < given.length())
-        found[gl_GlobalInvocationID.x] = formula(given[gl_GlobalInvocationID.x]);
-}
-)";
-}
-
-GlProgram compute(const std::string& text) {
-    const GlShader shader(glCreateShader(GL_COMPUTE_SHADER));
-    const GLchar* source = text.c_str();
-    glShaderSource(shader.id(), 1, &source, nullptr);
-    glCompileShader(shader.id());
-    GlProgram program(glCreateProgram());
-    glAttachShader(program.id(), shader.id());
-    glLinkProgram(program.id());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-    if (!linked) {
-        std::array<GLchar, 4096> log{};
-        glGetShaderInfoLog(shader.id(), log.size(), nullptr, log.data());
-        throw std::runtime_error(log.data());
-    }
-    return program;
-}
-
-using Terms = std::array<float, 12>;
-using Formula = std::function<glm::dvec4(glm::dvec4)>;
-
-class ProjectionShaders : public test::GlTest {
+class ProjectionShaders : public test::GpuFormulas {
 protected:
-    void SetUp() override {
-        test::GlTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure()) context_.emplace();
-    }
-
-    // The largest component by which `glsl`, a function body with the argument v, differs from `cpp`.
-    double difference(const std::string& glsl, const Formula& cpp,
-                      const std::function<glm::vec4(test::Random&)>& input, const Terms& terms = {}) {
-        test::Random random(1);
-        std::vector<glm::vec4> given(kCount), found(kCount);
-        std::ranges::generate(given, [&] { return input(random); });
-        const GlBuffer in = makeBuffer(std::span<const glm::vec4>(given));
-        const GlBuffer out = makeBuffer(std::span<const glm::vec4>(found));
-        const GlProgram program = compute(shaderOf(glsl));
-        glUseProgram(program.id());
-        glProgramUniform1fv(program.id(), 0, static_cast<GLsizei>(terms.size()), terms.data());
-        bindStorage(0, in);
-        bindStorage(1, out);
-        glDispatchCompute(kCount / 64 + 1, 1, 1);
-        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-        glGetNamedBufferSubData(out.id(), 0, kCount * sizeof(glm::vec4), found.data());
-
-        double worst = 0;
-        for (size_t i = 0; i < kCount; ++i) {
-            const glm::dvec4 off = glm::abs(glm::dvec4(found[i]) - cpp(glm::dvec4(given[i])));
-            const double most = std::max({off.x, off.y, off.z, off.w});
-            if (!(most <= worst)) worst = most;
-        }
-        return worst;
-    }
-
-private:
-    std::optional<EglContext> context_;
+    ProjectionShaders()
+        : GpuFormulas({"projections/root_ahead", "projections/cylinder", "projections/equirectangular",
+                       "projections/pinhole", "projections/radial", "projections/sphere",
+                       "projections/sphere_slices"}) {}
 };
 
 glm::vec4 anyDirection(test::Random& random) {
