@@ -28,8 +28,12 @@ std::shared_ptr<const PreparedSource> PreparedImages::source(const WallPtr& wall
 
 std::shared_ptr<const FacePictures> PreparedImages::pictures(const GpuSource& source, TargetFormat format,
                                                              int samples) {
-    return pictures_.get({source.sizePx, source.faces.size(), format, samples}, [&] {
-        return std::make_shared<const FacePictures>(source.sizePx, source.faces.size(), format, samples);
+    const size_t count = source.faces.size();
+    constexpr size_t kMostSmallTexels = 16 << 20;
+    const size_t texels = count * static_cast<size_t>(source.sizePx.x) * static_cast<size_t>(source.sizePx.y);
+    auto& kept = texels * static_cast<size_t>(samples) > kMostSmallTexels ? largePictures_ : smallPictures_;
+    return kept.get({source.sizePx, count, format, samples}, [&] {
+        return std::make_shared<const FacePictures>(source.sizePx, count, format, samples);
     });
 }
 

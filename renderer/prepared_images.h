@@ -36,7 +36,8 @@ private:
         bool operator==(const PicturesKey&) const = default;
     };
     RecentlyUsed<SourceKey, const PreparedSource> sources_{8};
-    RecentlyUsed<PicturesKey, const FacePictures> pictures_{2};  // six of 4096 px are 400 MB
+    // Six faces of 4096 px are 400 MB, and more with samples.
+    RecentlyUsed<PicturesKey, const FacePictures> smallPictures_{8}, largePictures_{1};
     RecentlyUsed<SourceFilter, const Resampler> resamplers_{3};
 };
 

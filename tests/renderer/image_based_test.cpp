@@ -193,6 +193,13 @@ TEST_F(ImageBased, WhatIsPreparedIsKept) {
     const auto pictures = images.pictures(source->gpu, {}, 4);
     EXPECT_EQ(images.pictures(source->gpu, {}, 4), pictures);
     EXPECT_NE(images.pictures(source->gpu, {}, 1), pictures);
+    // One large set at a time.
+    const auto many = images.source(wall, display, SourceKind::cube, 2048);
+    const std::weak_ptr large = images.pictures(many->gpu, {}, 1);
+    EXPECT_FALSE(large.expired());
+    images.pictures(images.source(wall, display, SourceKind::cube, 2000)->gpu, {}, 1);
+    EXPECT_TRUE(large.expired());
+    EXPECT_EQ(images.pictures(source->gpu, {}, 4), pictures);
     EXPECT_EQ(images.resampler(SourceFilter::linear), images.resampler(SourceFilter::linear));
 }
 
