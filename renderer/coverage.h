@@ -46,16 +46,20 @@ public:
 
     // Leaves the pairs and one indirect draw command a range in pairs() and commands(). What lies between the
     // points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing out.
-    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid);
+    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
+                   StageTimer* timer = nullptr);
     const GlBuffer& pairs() const { return pairs_; }
     const GlBuffer& commands() const { return commands_; }
 
     FrameOutcome finishFrame();
 
+    size_t memoryBytes() const;
+
 private:
     void splitParts();
     void allocate();
-    uint32_t totalOf(size_t part) const { return totals_[part]; }
+    uint32_t pairsOf(size_t part) const { return totals_[2 * part]; }
+    uint32_t meshletsOf(size_t part) const { return totals_[2 * part + 1]; }
 
     GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
