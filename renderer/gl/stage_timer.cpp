@@ -21,7 +21,10 @@ void StageTimer::begin(std::string_view stage) {
     }
     Mark& mark = marks_[used_++];
     mark.stage = stage;
+    // A software renderer takes the times of a batch when it has come through all of it: each has its own.
+    glFlush();
     glQueryCounter(mark.timestamp.id(), GL_TIMESTAMP);
+    glFlush();
 }
 
 std::vector<StageTime> StageTimer::take() {
