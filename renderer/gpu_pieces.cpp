@@ -71,7 +71,7 @@ constexpr size_t kMostOwnerBytes = size_t{1} << 30;
 GpuOwners makeOwners(glm::ivec2 sizePx, int layers) {
     GLuint id = 0;
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
-    GpuOwners gpu{GlTexture(id), false};
+    GpuOwners gpu{GlTexture(id), {}, 0};
     glTextureStorage3D(id, 1, GL_R32I, sizePx.x, sizePx.y, layers);
     // Whole numbers are not mixed.
     glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -79,10 +79,35 @@ GpuOwners makeOwners(glm::ivec2 sizePx, int layers) {
     return gpu;
 }
 
+// Tiles that have holes, those beside each other as one.
+std::vector<glm::ivec4> holeTilesOf(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
+    constexpr int kTilePx = 32;
+    const auto hasHole = [&](glm::ivec4 tile) {
+        for (int y = tile.y; y < tile.w; ++y) {
+            const auto row = owners.begin() + std::ptrdiff_t{y} * sizePx.x;
+            if (std::find(row + tile.x, row + tile.z, kNoPiece) != row + tile.z) return true;
+        }
+        return false;
+    };
+    std::vector<glm::ivec4> tiles;
+    for (int y = 0; y < sizePx.y; y += kTilePx) {
+        bool goesOn = false;
+        for (int x = 0; x < sizePx.x; x += kTilePx) {
+            const glm::ivec4 tile(x, y, std::min(x + kTilePx, sizePx.x), std::min(y + kTilePx, sizePx.y));
+            const bool has = hasHole(tile);
+            if (has && goesOn)
+                tiles.back().z = tile.z;
+            else if (has)
+                tiles.push_back(tile);
+            goesOn = has;
+        }
+    }
+    return tiles;
+}
+
 void fillLayer(GpuOwners& gpu, int layer, const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
     glTextureSubImage3D(gpu.texture.id(), 0, 0, 0, layer, sizePx.x, sizePx.y, 1, GL_RED_INTEGER, GL_INT,
                         owners.data());
-    gpu.hasHoles = gpu.hasHoles || std::ranges::find(owners, kNoPiece) != owners.end();
 }
 
 }  // namespace
@@ -114,6 +139,9 @@ glm::vec4 sampleGridOf(const GpuPieces& pieces, const FramePass& pass) {
 GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
     GpuOwners gpu = makeOwners(sizePx, 1);
     fillLayer(gpu, 0, owners, sizePx);
+    const std::vector<glm::ivec4> tiles = holeTilesOf(owners, sizePx);
+    gpu.holeTiles = makeBuffer(std::span<const glm::ivec4>(tiles));
+    gpu.holeTileCount = static_cast<int>(tiles.size());
     return gpu;
 }
 

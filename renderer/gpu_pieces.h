@@ -39,7 +39,11 @@ glm::vec4 sampleGridOf(const GpuPieces& pieces, const FramePass& pass);
 // The owner of every pixel, or of every sample of every pixel; see calibration/pieces/ownership.h.
 struct GpuOwners {
     GlTexture texture;  // an array of R32I, one layer a sample
-    bool hasHoles = false;
+    GlBuffer
+        holeTiles;  // of pixels' owners: left, top, right and bottom of the tiles that have holes, pixels
+    int holeTileCount = 0;
+
+    bool hasHoles() const { return holeTileCount > 0; }
 };
 
 // Of the pixels' centres.

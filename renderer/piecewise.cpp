@@ -35,7 +35,7 @@ GeometryPath pathThrough(const GpuPieces& pieces, const PieceOwners& owners, Out
         path.ownerSamples = owners.ofSamples ? samples : 1;
     } else {
         // Counted without a depth test, which keeps all else out of holes.
-        path.singleCover = output == OutputKind::coverage && owners.ofPixels && owners.ofPixels->hasHoles;
+        path.singleCover = output == OutputKind::coverage && owners.ofPixels && owners.ofPixels->hasHoles();
     }
     return path;
 }
@@ -58,9 +58,8 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
       programs_(std::move(programs)),
       emptyVertexArray_(makeVertexArray()) {
     if (!replicators_) plainDraw_.emplace(pieces);
-    if (owners.ofPixels && owners.ofPixels->hasHoles && output() != OutputKind::coverage)
-        holesProgram_ =
-            makeProgram({{GL_VERTEX_SHADER, "whole_screen.vert"}, {GL_FRAGMENT_SHADER, "holes.frag"}});
+    if (owners.ofPixels && owners.ofPixels->hasHoles() && output() != OutputKind::coverage)
+        holesProgram_ = makeProgram({{GL_VERTEX_SHADER, "holes.vert"}, {GL_FRAGMENT_SHADER, "holes.frag"}});
 }
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
@@ -105,7 +104,10 @@ void PiecewiseRenderer::closeHoles() const {
     glUseProgram(holesProgram_.id());
     glBindTextureUnit(1, owners_.ofPixels->texture.id());
     glBindVertexArray(emptyVertexArray_.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    bindStorage(0, owners_.ofPixels->holeTiles);
+    glProgramUniform2f(holesProgram_.id(), 0, static_cast<float>(pieces_.sizePx.x),
+                       static_cast<float>(pieces_.sizePx.y));
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, owners_.ofPixels->holeTileCount);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 

@@ -111,7 +111,7 @@ StrokeRenderer::StrokeRenderer(const GpuScene& scene, StrokeScene& strokes, cons
       strokes_(strokes),
       pieces_(pieces),
       look_(look),
-      owners_(owners && owners->hasHoles ? owners : nullptr),
+      owners_(owners && owners->hasHoles() ? owners : nullptr),
       emptyVertexArray_(makeVertexArray()) {
     for (const MaterialRange& range : strokes.gpu.scene->ranges) {
         const Variant variant = variantFor(scene.scene->materials[range.material]);
