@@ -59,6 +59,12 @@ void FrameTarget::copyInto(GLuint framebuffer) const {
                            sizePx_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+int FrameTarget::samples() const {
+    GLint samples = 0;
+    glGetNamedRenderbufferParameteriv(depth_.id(), GL_RENDERBUFFER_SAMPLES, &samples);
+    return std::max(samples, 1);
+}
+
 Frame FrameTarget::read() const {
     Frame frame{sizePx_, channelsOf(format_.output), {}};
     const size_t rowTexels = static_cast<size_t>(sizePx_.x) * static_cast<size_t>(frame.channels);

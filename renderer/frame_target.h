@@ -38,6 +38,7 @@ public:
     Frame read() const;
 
     glm::ivec2 sizePx() const { return sizePx_; }
+    int samples() const;  // of a pixel; a driver may take more than it was asked for
     const GlTexture& texture() const { return texture_; }
 
 private:

@@ -14,7 +14,7 @@ int mostHardwareSamples() {
 }
 
 std::vector<FramePass> passesFor(int samples) {
-    if (samples <= mostHardwareSamples()) return {FramePass{.samples = samples}};
+    if (samples <= mostHardwareSamples()) return {FramePass{}};
     std::vector<FramePass> passes;
     // A sample stands for an area of 1 / samples of the pixel.
     const float lodBias = -0.5f * std::log2(static_cast<float>(samples));
@@ -29,6 +29,7 @@ std::vector<FramePass> passesFor(int samples) {
 
 SampledTarget::SampledTarget(glm::ivec2 sizePx, TargetFormat format, int samples)
     : passes_(passesFor(samples)), target_(sizePx, format, passes_.size() > 1 ? 1 : samples) {
+    passes_.front().samples = target_.samples();
     if (passes_.size() == 1) return;
     sum_.emplace(sizePx, TargetFormat{OutputKind::color, true}, 1);
     addProgram_ =
