@@ -1,6 +1,8 @@
 #include "renderer/coverage.h"
 
 #include "renderer/meshlets.h"
+#include "renderer/pair_drawing.h"
+#include "renderer/piece_coverage.h"
 
 #include <glm/vec4.hpp>
 
@@ -13,28 +15,15 @@ namespace {
 
 constexpr uint32_t kGroupSize = 64;
 static_assert(kGroupSize == kMeshletTriangles, "a meshlet is one group of coverage.comp");
-constexpr uint64_t kPairBytes = 8;
 // OpenGL promises that many groups along one axis.
 constexpr uint32_t kMostPartMeshlets = 65'535;
 
 uint32_t groupsFor(uint32_t items) { return (items + kGroupSize - 1) / kGroupSize; }
 
-uint32_t largestCapacity() {
-    GLint64 bytes = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    // Draw commands count vertices in 32 bits, three a pair.
-    return static_cast<uint32_t>(std::min<uint64_t>(static_cast<uint64_t>(bytes) / kPairBytes, 1u << 30));
-}
-
 GlProgram computeProgram(std::string_view file, const std::string& mode) {
     return makeProgram({{GL_COMPUTE_SHADER, file}},
                        {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
                         "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u"});
-}
-
-void setView(const GlProgram& program, const SceneView& view) {
-    glProgramUniformMatrix3fv(program.id(), 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
-    glProgramUniform3fv(program.id(), 1, 1, &view.originFromEyeM[0]);
 }
 
 constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -84,8 +73,8 @@ Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs)
       count_(computeProgram("coverage.comp", "COUNT")),
       scanPairs_(computeProgram("scan.comp", "PAIRS")),
       emit_(computeProgram("coverage.comp", "EMIT")),
-      commandsProgram_(computeProgram("draw_commands.comp", "COMMANDS")),
-      mostPairs_(std::min(mostPairs, largestCapacity())) {
+      commandsProgram_(computeProgram("draw_commands.comp", "MESHLETS")),
+      mostPairs_(std::min(mostPairs, mostPairsInBuffer())) {
     for (const SceneChunk& chunk : chunks) {
         const uint32_t mostMeshlets = chunk.changes ? chunk.triangleCount : chunk.meshletCount;
         for (uint32_t first = 0; first < mostMeshlets; first += kMostPartMeshlets)
@@ -137,15 +126,11 @@ void Coverage::allocate() {
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view,
                          const FramePass& pass) {
     const ScenePart& part = parts_[index];
-    bindStorage(0, part.chunk->positions);
-    bindStorage(1, part.chunk->corners);
-    bindStorage(2, pieces.nodes);
+    bindForCoverage(*part.chunk, pieces);
     bindStorage(3, part.chunk->meshlets);
     bindStorage(5, meshletNodes_);
     bindStorage(6, pairs_);
     bindStorage(7, found_);
-    bindStorage(8, pieces.corners);
-    bindStorage(9, pieces.pieces);
     bindStorage(10, seen_);
     bindStorage(11, placeOf_);
     bindStorage(12, dispatch_);
@@ -160,14 +145,11 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     for (const GlProgram* program : {&mark_, &gather_})
         glProgramUniform1ui(program->id(), 5, part.meshletCount);
     glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
-    for (const GlProgram* program : {&mark_, &count_, &emit_}) {
-        setView(*program, view);
-        glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
-    }
-    const glm::vec4 sampleGrid = sampleGridOf(pieces, pass);
+    setView(mark_.id(), view);
+    glProgramUniform1ui(mark_.id(), 4, pieces.nodeCount);
     for (const GlProgram* program : {&count_, &emit_}) {
-        glProgramUniform1ui(program->id(), 15, static_cast<GLuint>(3 + pieces.clipPlanes));
-        glProgramUniform4fv(program->id(), 16, 1, &sampleGrid[0]);
+        setView(program->id(), view);
+        setForCoverage(program->id(), pieces, pass);
     }
     glProgramUniform1ui(emit_.id(), 5, capacity_);
     glProgramUniform1ui(scanPairs_.id(), 7, static_cast<GLuint>(index));

@@ -14,10 +14,6 @@
 
 namespace curvewall {
 
-// Pairs are drawn in instances of so many; see draw_commands.comp.
-inline constexpr uint32_t kPairsPerInstance = 64;
-inline constexpr size_t kDrawCommandBytes = 5 * sizeof(uint32_t);
-
 // A run of a chunk's meshlets that is counted, replicated and drawn before the next one.
 struct ScenePart {
     const SceneChunk* chunk = nullptr;

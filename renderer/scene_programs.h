@@ -19,16 +19,18 @@ struct SceneLook {
 
 // How the corners reach the shader.
 enum class CornerSource {
-    plain,  // plain vertices, one piece for all
-    loop,   // plain vertices, the piece is a uniform
-    pairs,  // pulled by (triangle, piece) pairs
+    plain,        // plain vertices, one piece for all
+    loop,         // plain vertices, the piece is a uniform
+    pairs,        // pulled by (triangle, piece) pairs
+    tessellated,  // triangles by number, replicated on their way
 };
 
 struct GeometryPath {
     CornerSource source = CornerSource::plain;
     int clipPlanes = 0;
-    bool singleCover = false;  // each pixel is its owner's alone; blended materials have that anyway
-    int ownerSamples = 1;      // owners that a pixel has in one pass
+    bool singleCover = false;    // each pixel is its owner's alone; blended materials have that anyway
+    int ownerSamples = 1;        // owners that a pixel has in one pass
+    int replicationsAPoint = 1;  // tessellated: pieces that one point of the tessellator stands for at most
 
     bool operator==(const GeometryPath&) const = default;
 };
