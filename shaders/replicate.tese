@@ -5,7 +5,7 @@
 layout(isolines, equal_spacing, point_mode) in;
 
 layout(location = 0) patch in uvec4 replicas;
-layout(location = 1) patch in uvec4 kept[KEPT_VECTORS];
+layout(location = 1) patch in uvec4 patchKept[KEPT_VECTORS];
 
 layout(location = 0) flat out uvec4 replications;  // triangle and facing, first number, how many, the piece where it is known
 const uint NO_PIECE = 0xffffffffu;
@@ -16,5 +16,5 @@ void main() {
     uint line = uint(gl_TessCoord.y * gl_TessLevelOuter[0] + 0.5);
     uint first = min((line * pointsALine + onLine) * aPoint, total);
     bool isKept = aPoint == 1u && first < KEPT;
-    replications = uvec4(replicas.x, first, min(aPoint, total - first), isKept ? kept[first / 4u][first % 4u] : NO_PIECE);
+    replications = uvec4(replicas.x, first, min(aPoint, total - first), isKept ? patchKept[first / 4u][first % 4u] : NO_PIECE);
 }
