@@ -1,7 +1,6 @@
 #include "renderer/piecewise.h"
 
 #include "renderer/blended_triangles.h"
-#include "renderer/tessellation_replicator.h"
 
 #include <utility>
 
@@ -41,8 +40,6 @@ GeometryPath pathThrough(const GpuPieces& pieces, const PieceOwners& owners, Out
     GeometryPath path{.clipPlanes = pieces.clipPlanes};
     if (pieces.pieceCount > 1) {
         path.source = cornersFor(engine);
-        if (path.source == CornerSource::tessellated)
-            path.replicationsAPoint = replicationsAPoint(pieces.pieceCount);
         path.singleCover = output == OutputKind::coverage || output == OutputKind::position;
         path.ownerSamples = owners.ofSamples ? samples : 1;
     } else {

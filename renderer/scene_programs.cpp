@@ -50,7 +50,6 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         if (pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.source == CornerSource::loop, "LOOP");
         const bool tessellated = path.source == CornerSource::tessellated;
-        if (tessellated) defines.push_back("REPLICATIONS_A_POINT " + std::to_string(path.replicationsAPoint));
         const bool owned = path.singleCover || (variant.blended && path.source != CornerSource::plain);
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));

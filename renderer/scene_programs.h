@@ -28,9 +28,8 @@ enum class CornerSource {
 struct GeometryPath {
     CornerSource source = CornerSource::plain;
     int clipPlanes = 0;
-    bool singleCover = false;    // each pixel is its owner's alone; blended materials have that anyway
-    int ownerSamples = 1;        // owners that a pixel has in one pass
-    int replicationsAPoint = 1;  // tessellated: pieces that one point of the tessellator stands for at most
+    bool singleCover = false;  // each pixel is its owner's alone; blended materials have that anyway
+    int ownerSamples = 1;      // owners that a pixel has in one pass
 
     bool operator==(const GeometryPath&) const = default;
 };

@@ -7,9 +7,6 @@
 
 namespace curvewall {
 
-// Pieces that each point of a triangle has to stand for at most. Throws UsageError where that is too much.
-int replicationsAPoint(int pieceCount);
-
 class TessellationReplicator : public Replicator {
 public:
     explicit TessellationReplicator(std::span<const SceneChunk> chunks);

@@ -1,34 +1,28 @@
-// Draws the replications that a point stands for, each in its piece.
+// Draws a replication in its piece.
 
 #define PULLED
 #include "piece_coverage.glsl"
 #include "scene_corner.glsl"
 
 layout(points) in;
-layout(triangle_strip, max_vertices = 3 * REPLICATIONS_A_POINT) out;
+layout(triangle_strip, max_vertices = 3) out;
 
-layout(location = 0) flat in uvec4 replications[];
+layout(location = 0) flat in uvec4 replication[];
+layout(location = 1) flat in uint isOne[];
 
-uint found[REPLICATIONS_A_POINT];
+uint found;
 
-void take(uint piece, uint nth) {
-    uint first = replications[0].y;
-    if (nth >= first) found[nth - first] = piece;
-}
+void take(uint piece, uint nth) { found = piece; }
 
 void main() {
-    uint triangleAndFacing = replications[0].x, first = replications[0].y, count = replications[0].z;
-    found[0] = replications[0].w;
-    if (count > 0u && found[0] == NO_PIECE) {
-        uint end = walk(rayTriangleAt(triangleAndFacing & ~SEEN_FROM_BEHIND), 0u, nodeCount, first + count);
-        count = max(end, first) - first;
+    if (isOne[0] == 0u) return;
+    uint triangleAndFacing = replication[0].x, number = replication[0].y;
+    found = replication[0].z;
+    if (replication[0].w == 0u)
+        walk(rayTriangleAt(triangleAndFacing & ~SEEN_FROM_BEHIND), 0u, nodeCount, number + 1u);
+    for (uint corner = 0u; corner < 3u; ++corner) {
+        sendCorner(triangleAndFacing, corner, found);
+        EmitVertex();
     }
-    for (uint i = 0u; i < REPLICATIONS_A_POINT; ++i) {
-        if (i >= count) break;
-        for (uint corner = 0u; corner < 3u; ++corner) {
-            sendCorner(triangleAndFacing, corner, found[i]);
-            EmitVertex();
-        }
-        EndPrimitive();
-    }
+    EndPrimitive();
 }

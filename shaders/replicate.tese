@@ -1,20 +1,22 @@
-// Which of its triangle's replications does a point stand for?
+// Which of its triangle's replications is a point?
 
 #include "tessellated.glsl"
 
 layout(isolines, equal_spacing, point_mode) in;
 
-layout(location = 0) patch in uvec4 replicas;
+layout(location = 0) patch in uvec4 replications;
 layout(location = 1) patch in uvec4 patchKept[KEPT_VECTORS];
 
-layout(location = 0) flat out uvec4 replications;  // triangle and facing, first number, how many, the piece where it is known
-const uint NO_PIECE = 0xffffffffu;
+layout(location = 0) flat out uvec4 replication;  // triangle and facing, number, the piece, whether that is known
+layout(location = 1) flat out uint isOne;         // not a point too many
 
 void main() {
-    uint total = replicas.y, pointsALine = replicas.z, aPoint = replicas.w;
+    uint pointsALine = replications.w;
     uint onLine = uint(gl_TessCoord.x * float(pointsALine - 1u) + 0.5);
     uint line = uint(gl_TessCoord.y * gl_TessLevelOuter[0] + 0.5);
-    uint first = min((line * pointsALine + onLine) * aPoint, total);
-    bool isKept = aPoint == 1u && first < KEPT;
-    replications = uvec4(replicas.x, first, min(aPoint, total - first), isKept ? patchKept[first / 4u][first % 4u] : NO_PIECE);
+    uint index = line * pointsALine + onLine, number = replications.y + index;
+    isOne = index < replications.z ? 1u : 0u;
+    bool isKept = number < KEPT;
+    uint place = isKept ? number : 0u;
+    replication = uvec4(replications.x, number, patchKept[place / 4u][place % 4u], isKept ? 1u : 0u);
 }

@@ -1,11 +1,14 @@
 // How often is a triangle replicated? The tessellation engine's patches are triangles, by number. Lorenz and Doellner (2009),
-// section 2.2, count in the next stage, of which a GPU runs one invocation a patch: here neighbours are counted together.
+// section 2.2, count in the next stage, of which drivers run one patch at a time: here neighbours are counted together. Where
+// a triangle may touch more pieces than the tessellator can make points, several patches in a row share it.
 
 #include "piece_coverage.glsl"
 #include "tessellated.glsl"
 
-layout(location = 0) flat out uvec2 triangleAndCount;  // triangle and facing
-layout(location = 1) flat out uvec4 kept[KEPT_VECTORS];
+layout(location = 20) uniform uint patchesATriangle;
+
+layout(location = 0) flat out uvec3 triangleFirstCount;  // triangle and facing; numbered as walk() takes its pieces
+layout(location = 1) flat out uvec4 kept[KEPT_VECTORS];  // the triangle's first pieces
 
 uvec4 found[KEPT_VECTORS];
 
@@ -14,7 +17,7 @@ void take(uint piece, uint nth) {
 }
 
 void main() {
-    uint triangle = uint(gl_VertexID);
+    uint triangle = uint(gl_VertexID) / patchesATriangle;
     RayTriangle t = rayTriangleAt(triangle);
     bool behind = t.facing > 0.0;
     uint count = 0u;
@@ -22,6 +25,7 @@ void main() {
     if (!behind)
 #endif
         count = walk(t, 0u, nodeCount, ALL_PIECES);
-    triangleAndCount = uvec2(triangle | (behind ? SEEN_FROM_BEHIND : 0u), count);
+    uint first = min(uint(gl_VertexID) % patchesATriangle * MOST_POINTS, count);
+    triangleFirstCount = uvec3(triangle | (behind ? SEEN_FROM_BEHIND : 0u), first, min(count - first, MOST_POINTS));
     for (uint i = 0u; i < KEPT_VECTORS; ++i) kept[i] = found[i];
 }
