@@ -115,12 +115,14 @@ void Coverage::allocate() {
     found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * kGroupSize * meshlets);
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
     commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
-    constexpr GLbitfield kMapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    constexpr GLbitfield kMapping =
+        GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     const size_t totalBytes = sizeof(uint32_t) * std::max<size_t>(parts_.size(), 1);
     totalsBuffer_ = makeBuffer(nullptr, totalBytes, kMapping);
-    totals_ = static_cast<const volatile uint32_t*>(
+    totals_ = static_cast<volatile uint32_t*>(
         glMapNamedBufferRange(totalsBuffer_.id(), 0, static_cast<GLsizeiptr>(totalBytes), kMapping));
     if (!totals_) throw std::runtime_error("OpenGL could not map a buffer");
+    std::fill_n(totals_, parts_.size(), 0u);
 }
 
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view,
@@ -171,24 +173,27 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
 
 FrameOutcome Coverage::finishFrame() {
     FrameOutcome outcome;
-    uint64_t needed = 0;
+    std::vector<uint32_t> needed(parts_.size());
+    uint64_t most = 0;
     for (size_t i = 0; i < parts_.size(); ++i) {
-        outcome.pairCount += totalOf(i);
-        needed = std::max<uint64_t>(needed, totalOf(i));
+        needed[i] = totals_[i];
+        totals_[i] = 0;
+        outcome.pairCount += needed[i];
+        most = std::max<uint64_t>(most, needed[i]);
     }
-    outcome.overflowed = needed > capacity_;
+    outcome.overflowed = most > capacity_;
     if (!outcome.overflowed) return outcome;
-    if (needed > mostPairs_) splitParts();
-    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, mostPairs_));
+    if (most > mostPairs_) splitParts(needed);
+    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs_));
     allocate();
     return outcome;
 }
 
-void Coverage::splitParts() {
+void Coverage::splitParts(const std::vector<uint32_t>& needed) {
     std::vector<ScenePart> parts;
     for (size_t i = 0; i < parts_.size(); ++i) {
         ScenePart& part = parts_[i];
-        if (totalOf(i) <= mostPairs_ || part.meshletCount == 1) {
+        if (needed[i] <= mostPairs_ || part.meshletCount == 1) {
             parts.push_back(std::move(part));
         } else {
             const uint32_t half = part.meshletCount / 2;

@@ -48,9 +48,8 @@ public:
     FrameOutcome finishFrame();
 
 private:
-    void splitParts();
+    void splitParts(const std::vector<uint32_t>& needed);
     void allocate();
-    uint32_t totalOf(size_t part) const { return totals_[part]; }
 
     GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
@@ -60,7 +59,7 @@ private:
     size_t rangeCapacity_ = 0;
     GlBuffer groupSeen_, meshletNodes_, seen_, placeOf_, dispatch_;
     GlBuffer groupPairs_, found_, pairs_, commands_, totalsBuffer_;
-    const volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
+    volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
 };
 
 }  // namespace curvewall

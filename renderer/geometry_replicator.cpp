@@ -195,7 +195,7 @@ void GeometryReplicator::makeCommands(const Part& part) {
 
 FrameOutcome GeometryReplicator::finishFrame() {
     const std::vector<uint64_t> counts = pairQueries_.take();
-    // A frame may have several passes over the parts. Its pairs are those of one.
+    // Each pass goes over all parts.
     std::vector<uint64_t> needed(parts_.size());
     for (size_t i = 0; i < counts.size(); ++i) {
         uint64_t& ofPart = needed[i % parts_.size()];

@@ -1,10 +1,9 @@
 #include "renderer/loop_replicator.h"
 
-#include <utility>
-
 namespace curvewall {
 
 void LoopReplicator::draw(const PieceDraw& draw) {
+    pairCount_ = 0;
     bindStorage(2, draw.pieces.pieces);
     for (const SceneChunk& chunk : chunks_) {
         glBindVertexArray(chunk.vertexArray.id());
@@ -22,6 +21,6 @@ void LoopReplicator::draw(const PieceDraw& draw) {
     }
 }
 
-FrameOutcome LoopReplicator::finishFrame() { return {std::exchange(pairCount_, 0), false}; }
+FrameOutcome LoopReplicator::finishFrame() { return {pairCount_, false}; }
 
 }  // namespace curvewall

@@ -2,6 +2,8 @@
 
 #include "renderer/piece_coverage.h"
 
+#include <algorithm>
+
 namespace curvewall {
 namespace {
 
@@ -33,9 +35,8 @@ void TessellationReplicator::draw(const PieceDraw& draw) {
 }
 
 FrameOutcome TessellationReplicator::finishFrame() {
-    // A frame may have several passes. Its pairs are those of one.
     const std::vector<uint64_t> counts = pairQueries_.take();
-    return {counts.empty() ? 0 : counts.back(), false};
+    return {counts.empty() ? 0 : std::ranges::max(counts), false};
 }
 
 }  // namespace curvewall

@@ -8,7 +8,7 @@ layout(std430, binding = 12) buffer Dispatch { uint dispatch[3]; };
 #ifdef MESHLETS
 layout(location = 6) uniform uint groupCount;
 #else
-layout(std430, binding = 13) writeonly buffer Totals { uint totals[]; };  // read by the CPU after the frame
+layout(std430, binding = 13) buffer Totals { uint totals[]; };  // the most of a frame's passes; the CPU reads and clears them
 layout(location = 7) uniform uint part;
 #endif
 
@@ -47,7 +47,7 @@ void main() {
         dispatch[1] = 1u;
         dispatch[2] = 1u;
 #else
-        totals[part] = sums[self];
+        totals[part] = max(totals[part], sums[self]);
 #endif
     }
 }
