@@ -10,7 +10,7 @@ namespace curvewall {
 namespace {
 
 // What a geometry shader makes of one record; 24 bytes each are well below what every driver lets it emit.
-constexpr uint32_t kMostParts = 32;
+constexpr uint32_t kMostParts = 64;
 constexpr size_t kRecordBytes = 24;
 constexpr uint32_t kMostPartTriangles = 1u << 20;
 

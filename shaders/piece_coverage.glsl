@@ -85,7 +85,8 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
     uint count = 0u;
     for (uint i = 0u; i < end && count < most;) {
         if (nodes[i].link.x <= begin || isOutside(nodes[i], t)) {
-            i = nodes[i].link.x;
+            // Always onwards: the vertices that fill up llvmpipe's last vector read zeros, and would go round for long.
+            i = max(nodes[i].link.x, i + 1u);
             continue;
         }
         if (nodes[i].link.y != NO_PIECE && touches(nodes[i], t)) take(nodes[i].link.y, count++);
