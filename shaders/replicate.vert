@@ -1,6 +1,6 @@
 // How often is a triangle replicated? The tessellation engine's patches are triangles, by number. Lorenz and Doellner (2009),
-// section 2.2, count in the next stage, of which drivers run one patch at a time: here neighbours are counted together. Where
-// a triangle may touch more pieces than the tessellator can make points, several patches in a row share it.
+// section 2.2, count in the next stage, where llvmpipe takes one patch at a time and needs 8 to 60 times as long. Where a
+// triangle may touch more pieces than the tessellator can make points, several patches in a row share it.
 
 #include "piece_coverage.glsl"
 #include "tessellated.glsl"
