@@ -1,40 +1,30 @@
 #include "renderer/coverage.h"
 
 #include "renderer/meshlets.h"
+#include "renderer/pair_drawing.h"
+#include "renderer/piece_coverage.h"
 
 #include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
 
 constexpr uint32_t kGroupSize = 64;
 static_assert(kGroupSize == kMeshletTriangles, "a meshlet is one group of coverage.comp");
-constexpr uint64_t kPairBytes = 8;
 // OpenGL promises that many groups along one axis.
 constexpr uint32_t kMostPartMeshlets = 65'535;
 
 uint32_t groupsFor(uint32_t items) { return (items + kGroupSize - 1) / kGroupSize; }
 
-uint32_t largestCapacity() {
-    GLint64 bytes = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    // Draw commands count vertices in 32 bits, three a pair.
-    return static_cast<uint32_t>(std::min<uint64_t>(static_cast<uint64_t>(bytes) / kPairBytes, 1u << 30));
-}
-
 GlProgram computeProgram(std::string_view file, const std::string& mode) {
     return makeProgram({{GL_COMPUTE_SHADER, file}},
                        {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
                         "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u"});
-}
-
-void setView(const GlProgram& program, const SceneView& view) {
-    glProgramUniformMatrix3fv(program.id(), 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
-    glProgramUniform3fv(program.id(), 1, 1, &view.originFromEyeM[0]);
 }
 
 constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -84,8 +74,8 @@ Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs)
       count_(computeProgram("coverage.comp", "COUNT")),
       scanPairs_(computeProgram("scan.comp", "PAIRS")),
       emit_(computeProgram("coverage.comp", "EMIT")),
-      commandsProgram_(computeProgram("draw_commands.comp", "COMMANDS")),
-      mostPairs_(std::min(mostPairs, largestCapacity())) {
+      commandsProgram_(computeProgram("draw_commands.comp", "MESHLETS")),
+      mostPairs_(std::min(mostPairs, mostPairsInBuffer())) {
     for (const SceneChunk& chunk : chunks) {
         const uint32_t mostMeshlets = chunk.changes ? chunk.triangleCount : chunk.meshletCount;
         for (uint32_t first = 0; first < mostMeshlets; first += kMostPartMeshlets)
@@ -126,27 +116,24 @@ void Coverage::allocate() {
     found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * kGroupSize * meshlets);
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
     commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
-    constexpr GLbitfield kMapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    constexpr GLbitfield kMapping =
+        GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     const size_t totalBytes = 2 * sizeof(uint32_t) * std::max<size_t>(parts_.size(), 1);
     totalsBuffer_ = makeBuffer(nullptr, totalBytes, kMapping);
-    totals_ = static_cast<const volatile uint32_t*>(
+    totals_ = static_cast<volatile uint32_t*>(
         glMapNamedBufferRange(totalsBuffer_.id(), 0, static_cast<GLsizeiptr>(totalBytes), kMapping));
     if (!totals_) throw std::runtime_error("OpenGL could not map a buffer");
-    glClearNamedBufferData(totalsBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    std::fill_n(totals_, 2 * parts_.size(), 0u);
 }
 
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
                          StageTimer* timer) {
     const ScenePart& part = parts_[index];
-    bindStorage(0, part.chunk->positions);
-    bindStorage(1, part.chunk->corners);
-    bindStorage(2, pieces.nodes);
+    bindForCoverage(*part.chunk, pieces);
     bindStorage(3, part.chunk->meshlets);
     bindStorage(5, meshletNodes_);
     bindStorage(6, pairs_);
     bindStorage(7, found_);
-    bindStorage(8, pieces.corners);
-    bindStorage(9, pieces.pieces);
     bindStorage(10, seen_);
     bindStorage(11, placeOf_);
     bindStorage(12, dispatch_);
@@ -161,13 +148,11 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     for (const GlProgram* program : {&mark_, &gather_})
         glProgramUniform1ui(program->id(), 5, part.meshletCount);
     glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
-    for (const GlProgram* program : {&mark_, &count_, &emit_}) {
-        setView(*program, view);
-        glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
-    }
+    setView(mark_.id(), view);
+    glProgramUniform1ui(mark_.id(), 4, pieces.nodeCount);
     for (const GlProgram* program : {&count_, &emit_}) {
-        glProgramUniform1ui(program->id(), 15, static_cast<GLuint>(3 + pieces.clipPlanes));
-        glProgramUniform4fv(program->id(), 16, 1, &sampleGrid[0]);
+        setView(program->id(), view);
+        setForCoverage(program->id(), pieces, sampleGrid);
     }
     glProgramUniform1ui(emit_.id(), 5, capacity_);
     for (const GlProgram* program : {&scanMeshlets_, &scanPairs_})
@@ -192,17 +177,18 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
 
 FrameOutcome Coverage::finishFrame() {
     FrameOutcome outcome;
-    uint64_t needed = 0;
+    std::vector<uint32_t> needed(parts_.size());
+    uint64_t most = 0;
     for (size_t i = 0; i < parts_.size(); ++i) {
-        outcome.pairCount += pairsOf(i);
-        outcome.meshletCount += meshletsOf(i);
-        needed = std::max<uint64_t>(needed, pairsOf(i));
+        needed[i] = std::exchange(pairsOf(i), 0);
+        outcome.pairCount += needed[i];
+        outcome.meshletCount += std::exchange(meshletsOf(i), 0);
+        most = std::max<uint64_t>(most, needed[i]);
     }
-    outcome.overflowed = needed > capacity_;
-    if (needed > mostPairs_) splitParts();
-    glClearNamedBufferData(totalsBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    outcome.overflowed = most > capacity_;
     if (!outcome.overflowed) return outcome;
-    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, mostPairs_));
+    if (most > mostPairs_) splitParts(needed);
+    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs_));
     allocate();
     return outcome;
 }
@@ -215,11 +201,11 @@ size_t Coverage::memoryBytes() const {
     return bytes;
 }
 
-void Coverage::splitParts() {
+void Coverage::splitParts(const std::vector<uint32_t>& needed) {
     std::vector<ScenePart> parts;
     for (size_t i = 0; i < parts_.size(); ++i) {
         ScenePart& part = parts_[i];
-        if (pairsOf(i) <= mostPairs_ || part.meshletCount == 1) {
+        if (needed[i] <= mostPairs_ || part.meshletCount == 1) {
             parts.push_back(std::move(part));
         } else {
             const uint32_t half = part.meshletCount / 2;

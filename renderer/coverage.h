@@ -14,10 +14,6 @@
 
 namespace curvewall {
 
-// Pairs are drawn in instances of so many; see draw_commands.comp.
-inline constexpr uint32_t kPairsPerInstance = 64;
-inline constexpr size_t kDrawCommandBytes = 5 * sizeof(uint32_t);
-
 // A run of a chunk's meshlets that is counted, replicated and drawn before the next one.
 struct ScenePart {
     const SceneChunk* chunk = nullptr;
@@ -56,10 +52,10 @@ public:
     size_t memoryBytes() const;
 
 private:
-    void splitParts();
+    void splitParts(const std::vector<uint32_t>& needed);
     void allocate();
-    uint32_t pairsOf(size_t part) const { return totals_[2 * part]; }
-    uint32_t meshletsOf(size_t part) const { return totals_[2 * part + 1]; }
+    volatile uint32_t& pairsOf(size_t part) { return totals_[2 * part]; }
+    volatile uint32_t& meshletsOf(size_t part) { return totals_[2 * part + 1]; }
 
     GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
@@ -69,7 +65,7 @@ private:
     size_t rangeCapacity_ = 0;
     GlBuffer groupSeen_, meshletNodes_, seen_, placeOf_, dispatch_;
     GlBuffer groupPairs_, found_, pairs_, commands_, totalsBuffer_;
-    const volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
+    volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
 };
 
 }  // namespace curvewall

@@ -1,11 +1,10 @@
 #include "renderer/loop_replicator.h"
 
-#include <utility>
-
 namespace curvewall {
 
 void LoopReplicator::draw(const PieceDraw& draw) {
     draw.timer.begin("surfaces");
+    pairCount_ = 0;
     bindStorage(2, draw.pieces.pieces);
     for (const SceneChunk& chunk : chunks_) {
         draw.materials.bindVertices(chunk);
@@ -24,6 +23,6 @@ void LoopReplicator::draw(const PieceDraw& draw) {
     }
 }
 
-FrameOutcome LoopReplicator::finishFrame() { return {.pairCount = std::exchange(pairCount_, 0)}; }
+FrameOutcome LoopReplicator::finishFrame() { return {.pairCount = pairCount_}; }
 
 }  // namespace curvewall

@@ -1,6 +1,5 @@
 #pragma once
-// Draws the pairs that compute shaders have found: one indirect draw a material range, corners pulled from
-// the scene's buffers.
+// Draws the pairs that compute shaders have found.
 
 #include "renderer/coverage.h"
 #include "renderer/replicator.h"
@@ -20,8 +19,6 @@ public:
     const Coverage& coverage() const { return coverage_; }
 
 private:
-    void drawPairs(const ScenePart& part, const PieceDraw& draw) const;
-
     Coverage coverage_;
     GlVertexArray emptyVertexArray_;
 };

@@ -9,6 +9,19 @@ namespace {
 
 std::span<const SceneChunk> blendedChunk(const GpuScene& scene) { return {&scene.blended->chunk(), 1}; }
 
+CornerSource cornersFor(Engine engine) {
+    switch (engine) {
+        case Engine::compute:
+        case Engine::geometry:
+            return CornerSource::pairs;
+        case Engine::tessellation:
+            return CornerSource::tessellated;
+        case Engine::loop:
+            return CornerSource::loop;
+    }
+    return CornerSource::pairs;
+}
+
 void enableClipPlanes(int count) {
     for (int i = 0; i < 8; ++i)
         (i < count ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
@@ -30,7 +43,7 @@ GeometryPath pathThrough(const GpuPieces& pieces, const PieceOwners& owners, Out
                          int samples) {
     GeometryPath path{.clipPlanes = pieces.clipPlanes};
     if (pieces.pieceCount > 1) {
-        path.source = engine == Engine::loop ? CornerSource::loop : CornerSource::pairs;
+        path.source = cornersFor(engine);
         path.singleCover = output == OutputKind::coverage || output == OutputKind::position;
         path.ownerSamples = owners.ofSamples ? samples : 1;
     } else {

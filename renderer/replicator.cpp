@@ -1,7 +1,9 @@
 #include "renderer/replicator.h"
 
+#include "renderer/geometry_replicator.h"
 #include "renderer/loop_replicator.h"
 #include "renderer/pair_replicator.h"
+#include "renderer/tessellation_replicator.h"
 
 namespace curvewall {
 
@@ -14,12 +16,14 @@ FrameOutcome& FrameOutcome::operator+=(const FrameOutcome& other) {
 
 std::unique_ptr<Replicator> makeReplicator(Engine engine, std::span<const SceneChunk> chunks) {
     switch (engine) {
+        case Engine::compute:
+            return std::make_unique<PairReplicator>(chunks);
+        case Engine::geometry:
+            return std::make_unique<GeometryReplicator>(chunks);
+        case Engine::tessellation:
+            return std::make_unique<TessellationReplicator>(chunks);
         case Engine::loop:
             return std::make_unique<LoopReplicator>(chunks);
-        case Engine::compute:
-        case Engine::geometry:
-        case Engine::tessellation:
-            return std::make_unique<PairReplicator>(chunks);
     }
     return nullptr;
 }

@@ -24,8 +24,8 @@ struct PieceDraw {
     StageTimer& timer;
 };
 
-// After the GPU has finished a frame: how many (triangle, piece) pairs it had, and whether some found no
-// room. Then there is more room now, and the frame must be drawn again.
+// After the GPU has finished a frame: how many (triangle, piece) pairs it had, in the pass that had the most,
+// and whether some found no room. Then there is more room now, and the frame must be drawn again.
 struct FrameOutcome {
     uint64_t pairCount = 0;
     uint64_t meshletCount = 0;  // that showed something, where the engine looks at them

@@ -1,6 +1,6 @@
 #include "renderer/scene_programs.h"
 
-#include "renderer/coverage.h"
+#include "renderer/pair_drawing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,17 @@ std::string outputDefine(OutputKind output) {
     return {};
 }
 
+GlProgram sceneProgram(CornerSource source, const std::vector<std::string>& defines) {
+    if (source != CornerSource::tessellated)
+        return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
+    return makeProgram({{GL_VERTEX_SHADER, "replicate.vert"},
+                        {GL_TESS_CONTROL_SHADER, "replicate.tesc"},
+                        {GL_TESS_EVALUATION_SHADER, "replicate.tese"},
+                        {GL_GEOMETRY_SHADER, "replicate.geom"},
+                        {GL_FRAGMENT_SHADER, "scene.frag"}},
+                       defines);
+}
+
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
     : look_(look), drawsEdges_(curvewall::drawsEdges(look.style, look.output)) {
     for (const Material& material : scene.materials) {
@@ -38,6 +49,7 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(pairs, "PAIRS");
         if (pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.source == CornerSource::loop, "LOOP");
+        const bool tessellated = path.source == CornerSource::tessellated;
         const bool owned = path.singleCover || (variant.blended && path.source != CornerSource::plain);
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
@@ -47,13 +59,11 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(variant.lit, "LIT");
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");
-        // Pairs carry their facing and the hidden ones are never made; a plain draw has to look.
-        const bool checksFacing = !pairs && (variant.lit || variant.singleSided);
+        // Replications carry their facing and the hidden ones are never made; a plain draw has to look.
+        const bool checksFacing = !pairs && !tessellated && (variant.lit || variant.singleSided);
         defineIf(checksFacing, "CHECK_FACING");
         defineIf(!pairs && variant.singleSided, "SINGLE_SIDED");
-        GlProgram program =
-            makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
-        programs_.emplace(variant, Entry{std::move(program), checksFacing, owned});
+        programs_.emplace(variant, Entry{sceneProgram(path.source, defines), checksFacing, owned});
     }
 }
 
@@ -98,7 +108,7 @@ void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, con
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
         if (entry.owned) glProgramUniform1i(program, 17, pass.firstSample);
         if (entry.checksFacing) glProgramUniform1i(program, 12, pieces.frontIsClockwise.front());
-        if (drawsEdges_) glProgramUniform3fv(program, 19, 1, &sampling[0]);
+        if (drawsEdges_) glProgramUniform3fv(program, 22, 1, &sampling[0]);
     }
 }
 

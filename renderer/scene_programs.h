@@ -25,9 +25,10 @@ std::string outputDefine(OutputKind output);
 
 // How the corners reach the shader.
 enum class CornerSource {
-    plain,  // plain vertices, one piece for all
-    loop,   // plain vertices, the piece is a uniform
-    pairs,  // pulled by (triangle, piece) pairs
+    plain,        // plain vertices, one piece for all
+    loop,         // plain vertices, the piece is a uniform
+    pairs,        // pulled by (triangle, piece) pairs
+    tessellated,  // triangles by number, replicated on their way
 };
 
 struct GeometryPath {

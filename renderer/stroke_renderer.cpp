@@ -1,6 +1,7 @@
 #include "renderer/stroke_renderer.h"
 
 #include "renderer/frame_target.h"
+#include "renderer/pair_drawing.h"
 #include "renderer/strokes.h"
 
 #include <glm/geometric.hpp>

@@ -9,7 +9,6 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "meshlet.glsl"
 #include "group_prefix.glsl"
 
-const uint SEEN_FROM_BEHIND = 0x80000000u;
 const uint KEPT = 3u;  // pieces of a triangle that need no second walk; most triangles touch fewer
 
 layout(std430, binding = 4) buffer GroupPairs { uint groupPairs[]; };   // COUNT: pairs of a group; EMIT: its first
@@ -34,14 +33,14 @@ uint count(uint triangle, bool isSingleSided, uvec2 nodeRange) {
     RayTriangle t = rayTriangleAt(triangle);
     bool behind = t.facing > 0.0;
     if (behind && isSingleSided) return 0u;
-    return walk(t, nodeRange.x, nodeRange.y) | (behind ? SEEN_FROM_BEHIND : 0u);
+    return walk(t, nodeRange.x, nodeRange.y, ALL_PIECES) | (behind ? SEEN_FROM_BEHIND : 0u);
 }
 #else
 uint next, most;  // pair of this invocation's triangle, and how many it has
 uint triangleAndFacing;
 
 void take(uint piece, uint nth) {
-    if (nth < most && next + nth < capacity) pairs[next + nth] = uvec2(triangleAndFacing, piece);
+    if (next + nth < capacity) pairs[next + nth] = uvec2(triangleAndFacing, piece);
 }
 #endif
 
@@ -63,7 +62,8 @@ void main() {
     triangleAndFacing = (m.firstTriangle + self) | (ofTriangle.w & SEEN_FROM_BEHIND);
     if (most > KEPT) {
         // Two programs need not round alike: a piece that this walk misses is drawn as the one before it once more.
-        uint again = walk(rayTriangleAt(m.firstTriangle + self), meshletNodes[index].x, meshletNodes[index].y);
+        uint again = walk(rayTriangleAt(m.firstTriangle + self), meshletNodes[index].x, meshletNodes[index].y,
+                          most);
         for (uint i = again; i < most; ++i) take(ofTriangle.x, i);
     } else {
         for (uint i = 0u; i < most; ++i) take(ofTriangle[i], i);

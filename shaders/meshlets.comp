@@ -35,7 +35,7 @@ uvec2 nodesTouched(vec3 centre, float radius) {
     uvec2 touched = uvec2(nodeCount, 0u);
     for (uint i = 0u; i < nodeCount;) {
         if (isOutside(nodes[i], centre, radius)) {
-            i = nodes[i].link.x;
+            i = max(nodes[i].link.x, i + 1u);  // as in walk()
             continue;
         }
         if (nodes[i].link.y != NO_PIECE) touched = uvec2(min(touched.x, i), i + 1u);

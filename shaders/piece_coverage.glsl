@@ -6,11 +6,14 @@
 #include "piece_tree.glsl"
 
 layout(std430, binding = 8) readonly buffer PieceCorners { vec4 pieceCorners[]; };  // six of each piece, the last repeated
-layout(std430, binding = 9) readonly buffer PieceRows { vec4 pieceRows[]; };        // as scene.vert reads them
+layout(std430, binding = 9) readonly buffer PieceRows { vec4 pieceRows[]; };        // as scene_corner.glsl reads them
 
-layout(location = 15) uniform uint rowsPerPiece;
+layout(location = 19) uniform uint rowsPerPiece;
 // Where samples lie: clip space times xy plus zw is whole at every sample. Zero where what meets no sample counts as well.
 layout(location = 16) uniform vec4 sampleGrid;
+
+const uint ALL_PIECES = 0xffffffffu;
+const uint SEEN_FROM_BEHIND = 0x80000000u;  // a triangle's facing, beside its index
 
 struct RayTriangle {
     vec3 a, b, c;     // from the eye to the corners
@@ -76,12 +79,14 @@ bool touches(ConeNode leaf, RayTriangle t) {
 
 void take(uint piece, uint nth);  // what the includer does with the nth piece
 
-// Takes every piece that the triangle touches among the nodes from begin up to end, and counts them.
-uint walk(RayTriangle t, uint begin, uint end) {
+// Takes the pieces that the triangle touches among the nodes from begin up to end, `most` of them, and counts them. It starts
+// at the root: the planes about several pieces leave out a little more than those about each.
+uint walk(RayTriangle t, uint begin, uint end, uint most) {
     uint count = 0u;
-    for (uint i = begin; i < end;) {
-        if (isOutside(nodes[i], t)) {
-            i = nodes[i].link.x;
+    for (uint i = 0u; i < end && count < most;) {
+        if (nodes[i].link.x <= begin || isOutside(nodes[i], t)) {
+            // Always onwards: the vertices that fill up llvmpipe's last vector read zeros, and would go round for long.
+            i = max(nodes[i].link.x, i + 1u);
             continue;
         }
         if (nodes[i].link.y != NO_PIECE && touches(nodes[i], t)) take(nodes[i].link.y, count++);

@@ -19,7 +19,7 @@ layout(location = 17) uniform int firstOwnerLayer;
 #include "line_styles.glsl"
 layout(location = 4) in vec3 weights;  // barycentric: weight i is 0 on edge i
 layout(location = 5) flat in vec3 edgeWidthsPx;
-layout(location = 19) uniform vec3 sampling;  // xy: how far right and down the picture is drawn, z: side of a sample, px
+layout(location = 22) uniform vec3 sampling;  // xy: how far right and down the picture is drawn, z: side of a sample, px
 
 // Weights are affine in the point; divided by w they are so on the screen of a piece, where the distance to each edge
 // is exact therefore. Pieces differ in w and in scale, which drop out (Baerentzen et al., Single-pass Wireframe
