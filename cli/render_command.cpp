@@ -18,6 +18,7 @@
 
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace curvewall {
@@ -29,6 +30,7 @@ struct RenderCommand {
                                                    outputKind = "color", out, stats;
     double tolerancePx = kDefaultTolerancePx;
     int samples = 1, faceSizePx = 0, frames = 1;
+    std::optional<int> anisotropy;
 };
 
 RenderRequest requestOf(const RenderCommand& command) {
@@ -39,6 +41,7 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.output = outputKindFromName(command.outputKind).value();
     request.tolerancePx = command.tolerancePx;
     request.samples = command.samples;
+    request.anisotropy = command.anisotropy;
     request.source = sourceFromName(command.source).value();
     request.filter = filterFromName(command.filter).value();
     request.faceSizePx = command.faceSizePx;
@@ -127,6 +130,11 @@ void addRenderCommand(CLI::App& app) {
     render->add_option("--samples", command->samples, "Samples a pixel, or a texel of image-based")
         ->check(CLI::Range(1, kMostSamples))
         ->capture_default_str();
+    render
+        ->add_option(
+            "--anisotropy", command->anisotropy,
+            "Of texture filtering by the raster methods; without it what the GPU can, and 1 in software")
+        ->check(CLI::Range(1, kMostAnisotropy));
     render->add_option("--source", command->source, "What image-based resamples: " + sourceNames())
         ->check(oneOf(sourceFromName, sourceNames()))
         ->capture_default_str();

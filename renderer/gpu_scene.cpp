@@ -236,6 +236,17 @@ GpuScene uploadScene(ScenePtr scene) {
     return uploaded;
 }
 
+void setAnisotropy(const GpuScene& scene, int anisotropy) {
+    if (!epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") &&
+        !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        return;
+    GLfloat most = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &most);
+    for (const GlSampler& sampler : scene.samplers)
+        glSamplerParameterf(sampler.id(), GL_TEXTURE_MAX_ANISOTROPY,
+                            std::min(static_cast<GLfloat>(anisotropy), most));
+}
+
 uint64_t meshletCountOf(const GpuScene& scene) {
     uint64_t count = scene.blended ? scene.blended->chunk().meshletCount : 0;
     for (const SceneChunk& chunk : scene.chunks) count += chunk.meshletCount;

@@ -65,6 +65,9 @@ struct GpuScene {
     std::vector<GlSampler> samplers;  // one a texture
 };
 
+// For what is drawn from now on; at most what the driver has, and nothing where it has none.
+void setAnisotropy(const GpuScene& scene, int anisotropy);
+
 uint64_t meshletCountOf(const GpuScene& scene);
 size_t memoryBytesOf(const GpuScene& scene);  // textures included, strokes not
 

@@ -18,12 +18,15 @@ GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double 
 ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs,
                                        const GpuScene& scene, const GpuSource& source)
     : programs_(programs), source_(source) {
+    std::shared_ptr<const StrokePrograms> forStrokes;
+    if (scene.strokes)
+        forStrokes = std::make_shared<const StrokePrograms>(*scene.scene, programs->look(), false);
     for (size_t i = 0; i < source.faces.size(); ++i) {
         PiecewiseRenderer& face =
             faces_.emplace_back(programs, scene, source.faces[i], nullptr, PieceOwners{});
         if (scene.strokes)
-            face.addStrokes(std::make_unique<StrokeRenderer>(scene, *scene.strokes, source.facesForStrokes[i],
-                                                             programs->look(), nullptr));
+            face.addStrokes(std::make_unique<StrokeRenderer>(forStrokes, scene, *scene.strokes,
+                                                             source.facesForStrokes[i], nullptr));
     }
 }
 

@@ -42,13 +42,15 @@ SceneReplicators makeReplicators(Engine engine, const GpuScene& scene) {
 GeometryPath pathThrough(const GpuPieces& pieces, const PieceOwners& owners, OutputKind output, Engine engine,
                          int samples) {
     GeometryPath path{.clipPlanes = pieces.clipPlanes};
+    const bool hasHoles = owners.ofPixels && owners.ofPixels->hasHoles();
+    path.closesHoles = hasHoles && output != OutputKind::coverage;
     if (pieces.pieceCount > 1) {
         path.source = cornersFor(engine);
         path.singleCover = output == OutputKind::coverage || output == OutputKind::position;
         path.ownerSamples = owners.ofSamples ? samples : 1;
     } else {
         // Counted without a depth test, which keeps all else out of holes.
-        path.singleCover = output == OutputKind::coverage && owners.ofPixels && owners.ofPixels->hasHoles();
+        path.singleCover = output == OutputKind::coverage && hasHoles;
     }
     return path;
 }
@@ -71,12 +73,10 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
       programs_(std::move(programs)),
       emptyVertexArray_(makeVertexArray()) {
     if (!replicators_) plainDraw_.emplace(pieces);
-    if (owners.ofPixels && owners.ofPixels->hasHoles() && output() != OutputKind::coverage)
-        holesProgram_ = makeProgram({{GL_VERTEX_SHADER, "holes.vert"}, {GL_FRAGMENT_SHADER, "holes.frag"}});
 }
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
-    if (holesProgram_) {
+    if (programs_->forHoles()) {
         timer_.begin("holes");
         closeHoles();
     }
@@ -114,11 +114,11 @@ void PiecewiseRenderer::prepareSurfaces() const {
 void PiecewiseRenderer::closeHoles() const {
     enableClipPlanes(0);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glUseProgram(holesProgram_.id());
+    glUseProgram(programs_->forHoles().id());
     glBindTextureUnit(1, owners_.ofPixels->texture.id());
     glBindVertexArray(emptyVertexArray_.id());
     bindStorage(0, owners_.ofPixels->holeTiles);
-    glProgramUniform2f(holesProgram_.id(), 0, static_cast<float>(pieces_.sizePx.x),
+    glProgramUniform2f(programs_->forHoles().id(), 0, static_cast<float>(pieces_.sizePx.x),
                        static_cast<float>(pieces_.sizePx.y));
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, owners_.ofPixels->holeTileCount);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -77,7 +77,6 @@ private:
     PieceOwners owners_;
     std::shared_ptr<const ScenePrograms> programs_;
     std::unique_ptr<StrokeRenderer> strokes_;
-    GlProgram holesProgram_;  // where there are holes
     GlVertexArray emptyVertexArray_;
     StageTimer timer_;
 };

@@ -49,6 +49,13 @@ struct ProgramsKey {
     bool operator==(const ProgramsKey&) const = default;
 };
 
+struct StrokesKey {
+    Style style;
+    OutputKind output;
+    bool holes;
+    bool operator==(const StrokesKey&) const = default;
+};
+
 struct PreparedScene {
     explicit PreparedScene(const ScenePtr& scene) : gpu(uploadScene(scene)) {}
 
@@ -63,6 +70,7 @@ struct PreparedScene {
     RecentlyUsed<DrawKey, PreparedDraw> draws{16};
     RecentlyUsed<ImageKey, ImageBasedRenderer> images{8};
     RecentlyUsed<ProgramsKey, const ScenePrograms> programs{16};
+    RecentlyUsed<StrokesKey, const StrokePrograms> strokePrograms{8};
 };
 
 }  // namespace curvewall

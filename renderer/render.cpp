@@ -61,6 +61,13 @@ struct PiecesKey {
     bool operator==(const PiecesKey&) const = default;
 };
 
+struct TargetKey {
+    glm::ivec2 sizePx;
+    TargetFormat format;
+    int samples;
+    bool operator==(const TargetKey&) const = default;
+};
+
 struct OwnersKey {
     OwnersPtr owners;
     int samples;
@@ -92,6 +99,7 @@ struct Renderer::Impl {
     RecentlyUsed<OwnersPtr, const GpuOwners> owners{16};
     RecentlyUsed<OwnersKey, const GpuOwners> sampleOwners{4};
     PreparedImages images;
+    RecentlyUsed<TargetKey, const SampledTarget> targets{2};  // large
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
 
     std::shared_ptr<PreparedScene> preparedScene(const ScenePtr& scene) {
@@ -120,6 +128,18 @@ struct Renderer::Impl {
         });
     }
 
+    static std::shared_ptr<const StrokePrograms> strokeProgramsFor(PreparedScene& scene, SceneLook look,
+                                                                   bool holes) {
+        return scene.strokePrograms.get({look.style, look.output, holes}, [&] {
+            return std::make_shared<const StrokePrograms>(*scene.gpu.scene, look, holes);
+        });
+    }
+
+    std::shared_ptr<const SampledTarget> sampledTarget(glm::ivec2 sizePx, TargetFormat format, int samples) {
+        return targets.get({sizePx, format, samples},
+                           [&] { return std::make_shared<const SampledTarget>(sizePx, format, samples); });
+    }
+
     std::shared_ptr<PreparedDraw> preparedDraw(const RenderRequest& request, PreparedScene& scene,
                                                const std::shared_ptr<PreparedPieces>& prepared,
                                                const SampledTarget& target, int samples) {
@@ -142,7 +162,8 @@ struct Renderer::Impl {
                 if (!prepared->forStrokes)
                     prepared->forStrokes.emplace(uploadStrokePieces(prepared->fitted->mesh));
                 renderer.addStrokes(std::make_unique<StrokeRenderer>(
-                    scene.gpu, *scene.gpu.strokes, *prepared->forStrokes, look, whose.ofPixels));
+                    strokeProgramsFor(scene, look, path.closesHoles), scene.gpu, *scene.gpu.strokes,
+                    *prepared->forStrokes, whose.ofPixels));
             }
             return std::make_shared<PreparedDraw>(PreparedDraw{sampled, std::move(renderer)});
         });
@@ -173,7 +194,8 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
     const BlendedTarget blended = targetFor(request, display);
-    const SampledTarget target(display.sizePx, blended.pictureFormat(), samples);
+    const auto kept = sampledTarget(display.sizePx, blended.pictureFormat(), samples);
+    const SampledTarget& target = *kept;
     const auto drawn = preparedDraw(request, *scene, prepared, target, samples);
     stats.prepareMs = preparing.ms();
 
@@ -285,7 +307,11 @@ RenderResult Renderer::render(const RenderRequest& asked) {
             return std::make_shared<const Wall>(seenFrom(*asked.wall, *asked.eyeM));
         });
     const Display& display = findDisplay(*request.wall, request.display);
-    if (request.method != Method::reference && !impl_->context) impl_->context.emplace();
+    if (request.method != Method::reference) {
+        if (!impl_->context) impl_->context.emplace();
+        const int usual = impl_->context->isSoftware() ? 1 : kMostAnisotropy;
+        setAnisotropy(impl_->preparedScene(request.scene)->gpu, request.anisotropy.value_or(usual));
+    }
     RenderResult result;
     switch (request.method) {
         case Method::piecewise:

@@ -36,6 +36,9 @@ struct RenderRequest {
     int faceSizePx = 0;                          // 0: from the display's peak pixel density
     SourceFilter filter = SourceFilter::linear;  // of colour; other outputs take the nearest texel
     int samples = 1;                             // reference: rays per pixel; raster methods: MSAA samples
+    // Of textures, raster methods: 1 to kMostAnisotropy. Without one what the GL at hand does well: as much
+    // as it can on hardware, 1 on a software renderer.
+    std::optional<int> anisotropy{};
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
     bool linearOutput = false;  // colour at float precision (EXR) rather than 8-bit sRGB

@@ -10,5 +10,6 @@ inline constexpr int kLeastFacePx = 16;
 inline constexpr int kMostFacePx = 8192;
 inline constexpr int kMostAutomaticFacePx = 4096;  // six of them are 400 MB
 inline constexpr int kMostSamples = 4096;
+inline constexpr int kMostAnisotropy = 16;
 
 }  // namespace curvewall

@@ -37,6 +37,8 @@ GlProgram sceneProgram(CornerSource source, const std::vector<std::string>& defi
 
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
     : look_(look), drawsEdges_(curvewall::drawsEdges(look.style, look.output)) {
+    if (path.closesHoles)
+        forHoles_ = makeProgram({{GL_VERTEX_SHADER, "holes.vert"}, {GL_FRAGMENT_SHADER, "holes.frag"}});
     for (const Material& material : scene.materials) {
         const Variant variant = variantFor(material);
         if (programs_.contains(variant)) continue;

@@ -36,6 +36,7 @@ struct GeometryPath {
     int clipPlanes = 0;
     bool singleCover = false;  // each pixel is its owner's alone; blended materials have that anyway
     int ownerSamples = 1;      // owners that a pixel has in one pass
+    bool closesHoles = false;  // pixels without an owner are closed before anything is drawn
 
     bool operator==(const GeometryPath&) const = default;
 };
@@ -46,6 +47,7 @@ public:
     ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path);
 
     SceneLook look() const { return look_; }
+    const GlProgram& forHoles() const { return forHoles_; }  // where they are closed
 
     // What the programs fetch: position, and of normal, uv, texture and edges those that some material needs.
     std::vector<std::string> attributes() const;
@@ -81,6 +83,7 @@ private:
 
     SceneLook look_;
     bool drawsEdges_;
+    GlProgram forHoles_;
     std::map<Variant, Entry> programs_;
 };
 

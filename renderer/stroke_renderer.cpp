@@ -106,22 +106,30 @@ StrokePieces uploadStrokePieces(const PieceMesh& mesh) {
     return {uploadPieces(mesh, kBorderPx), makeBuffer(std::span<const glm::vec4>(records))};
 }
 
-StrokeRenderer::StrokeRenderer(const GpuScene& scene, StrokeScene& strokes, const StrokePieces& pieces,
-                               SceneLook look, const GpuOwners* owners)
-    : scene_(scene),
-      strokes_(strokes),
-      pieces_(pieces),
-      look_(look),
-      owners_(owners && owners->hasHoles() ? owners : nullptr),
-      emptyVertexArray_(makeVertexArray()) {
-    for (const MaterialRange& range : strokes.gpu.scene->ranges) {
-        const Variant variant = variantFor(scene.scene->materials[range.material]);
-        if (!programs_.contains(variant))
-            programs_.emplace(variant, makeVariant(variant, owners_ != nullptr));
+StrokePrograms::StrokePrograms(const Scene& scene, SceneLook look, bool holes) : look_(look) {
+    for (const std::vector<StrokeRange>* ranges : {&scene.pointRanges, &scene.lineRanges}) {
+        for (const StrokeRange& range : *ranges) {
+            const Variant variant = variantFor(scene.materials[range.material]);
+            if (!programs_.contains(variant)) programs_.emplace(variant, makeVariant(variant, holes));
+        }
     }
 }
 
-StrokeRenderer::Variant StrokeRenderer::variantFor(const Material& material) const {
+StrokePrograms::Chosen StrokePrograms::choose(const Material& material) const {
+    const Variant variant = variantFor(material);
+    return {programs_.at(variant).id(), variant.textured, variant.masked};
+}
+
+StrokeRenderer::StrokeRenderer(std::shared_ptr<const StrokePrograms> programs, const GpuScene& scene,
+                               StrokeScene& strokes, const StrokePieces& pieces, const GpuOwners* owners)
+    : scene_(scene),
+      strokes_(strokes),
+      pieces_(pieces),
+      owners_(owners && owners->hasHoles() ? owners : nullptr),
+      programs_(std::move(programs)),
+      emptyVertexArray_(makeVertexArray()) {}
+
+StrokePrograms::Variant StrokePrograms::variantFor(const Material& material) const {
     const bool color = look_.output == OutputKind::color;
     const bool masked = material.alphaCutoff >= 0;
     return {.lit = color && look_.style == Style::textured && !material.unlit,
@@ -130,7 +138,7 @@ StrokeRenderer::Variant StrokeRenderer::variantFor(const Material& material) con
             .singleCover = look_.output == OutputKind::coverage || material.blending != Blending::none};
 }
 
-GlProgram StrokeRenderer::makeVariant(Variant variant, bool hasHoles) const {
+GlProgram StrokePrograms::makeVariant(Variant variant, bool holes) const {
     std::vector<std::string> defines{outputDefine(look_.output),
                                      "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u",
                                      "MOST_EDGES " + std::to_string(kMostPieceEdges) + "u",
@@ -139,7 +147,7 @@ GlProgram StrokeRenderer::makeVariant(Variant variant, bool hasHoles) const {
     const auto defineIf = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name);
     };
-    defineIf(hasHoles, "HOLES");
+    defineIf(holes, "HOLES");
     defineIf(variant.lit, "LIT");
     defineIf(variant.textured, "TEXTURED");
     defineIf(variant.masked, "MASKED");
@@ -150,8 +158,8 @@ GlProgram StrokeRenderer::makeVariant(Variant variant, bool hasHoles) const {
 // What blends leaves no depth and no position, and to coverage all strokes are alike.
 bool StrokeRenderer::isDrawn(const Material& material, bool blended) const {
     const bool blends = material.blending != Blending::none;
-    if (look_.output == OutputKind::coverage) return !blended;
-    return blends == blended && (!blends || look_.output == OutputKind::color);
+    if (programs_->look().output == OutputKind::coverage) return !blended;
+    return blends == blended && (!blends || programs_->look().output == OutputKind::color);
 }
 
 void StrokeRenderer::recordSolid(const SceneView& view, const FramePass& pass) { record(view, pass, false); }
@@ -190,26 +198,25 @@ void StrokeRenderer::record(const SceneView& view, const FramePass& pass, bool b
     glDisable(GL_SAMPLE_SHADING);
     if (blended) {
         glDepthMask(GL_TRUE);
-        setSceneState(look_.output);
+        setSceneState(programs_->look().output);
     }
 }
 
 void StrokeRenderer::drawRange(const ScenePart& part, size_t range, const SceneView& view,
                                const FramePass& pass) {
     const Material& material = scene_.scene->materials[part.ranges[range].material];
-    const Variant variant = variantFor(material);
-    const GLuint program = programs_.at(variant).id();
+    const auto [program, textured, masked] = programs_->choose(material);
     glUseProgram(program);
     glProgramUniformMatrix3fv(program, 0, 1, GL_FALSE, &view.wallFromScene[0][0]);
     glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
     glProgramUniform1f(program, 9, kNearFraction);
     glProgramUniform4fv(program, 10, 1, &material.baseColor[0]);
-    if (variant.masked) glProgramUniform1f(program, 11, material.alphaCutoff);
+    if (masked) glProgramUniform1f(program, 11, material.alphaCutoff);
     glProgramUniform1ui(program, 13, static_cast<GLuint>(range));
     glProgramUniform2fv(program, 14, 1, &pass.shiftPx[0]);
     glProgramUniform2f(program, 15, static_cast<float>(pieces_.found.sizePx.x),
                        static_cast<float>(pieces_.found.sizePx.y));
-    if (variant.textured) {
+    if (textured) {
         const auto texture = static_cast<size_t>(material.texture);
         glBindTextureUnit(0, scene_.textures[texture].id());
         glBindSampler(0, scene_.samplers[texture].id());

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 
 namespace curvewall {
 
@@ -30,6 +31,32 @@ struct StrokePieces {
 
 StrokePieces uploadStrokePieces(const PieceMesh& mesh);
 
+// The variants of stroke.vert and stroke.frag that a look needs.
+class StrokePrograms {
+public:
+    // Where there are `holes`, strokes keep out of them.
+    StrokePrograms(const Scene& scene, SceneLook look, bool holes);
+
+    struct Chosen {
+        GLuint program = 0;
+        bool textured = false, masked = false;
+    };
+    Chosen choose(const Material& material) const;
+    SceneLook look() const { return look_; }
+
+private:
+    struct Variant {
+        bool lit = false, textured = false, masked = false, singleCover = false;
+        // clang-tidy 14 takes the 0 of the comparisons made from it for a pointer.
+        auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
+    };
+    Variant variantFor(const Material& material) const;
+    GlProgram makeVariant(Variant variant, bool holes) const;
+
+    SceneLook look_;
+    std::map<Variant, GlProgram> programs_;
+};
+
 // Draws into the bound framebuffer, tested against its depth. What it was made from must outlive it. `owners`
 // is needed where the display has holes.
 //
@@ -40,9 +67,9 @@ StrokePieces uploadStrokePieces(const PieceMesh& mesh);
 // side and covered twice on the other, at a tolerance of 0.25 px a few hundredths of a pixel wide.
 class StrokeRenderer {
 public:
-    // `scene` has the textures.
-    StrokeRenderer(const GpuScene& scene, StrokeScene& strokes, const StrokePieces& pieces, SceneLook look,
-                   const GpuOwners* owners);
+    // `scene` has the textures; the programs are for its look and for whether `owners` has holes.
+    StrokeRenderer(std::shared_ptr<const StrokePrograms> programs, const GpuScene& scene,
+                   StrokeScene& strokes, const StrokePieces& pieces, const GpuOwners* owners);
 
     // Those that hide what is behind them, before anything that blends, and the others after all surfaces, in
     // the order of the scene. Record GL work only, and leave blending and depth as setSceneState has them.
@@ -53,13 +80,6 @@ public:
     FrameOutcome finishFrame() { return strokes_.coverage.finishFrame(); }
 
 private:
-    struct Variant {
-        bool lit = false, textured = false, masked = false, singleCover = false;
-        // clang-tidy 14 takes the 0 of the comparisons made from it for a pointer.
-        auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
-    };
-    Variant variantFor(const Material& material) const;
-    GlProgram makeVariant(Variant variant, bool hasHoles) const;
     bool isDrawn(const Material& material, bool blended) const;
     void record(const SceneView& view, const FramePass& pass, bool blended);
     void drawRange(const ScenePart& part, size_t range, const SceneView& view, const FramePass& pass);
@@ -67,9 +87,8 @@ private:
     const GpuScene& scene_;
     StrokeScene& strokes_;
     const StrokePieces& pieces_;
-    SceneLook look_;
     const GpuOwners* owners_;
-    std::map<Variant, GlProgram> programs_;
+    std::shared_ptr<const StrokePrograms> programs_;
     GlVertexArray emptyVertexArray_;
 };
 

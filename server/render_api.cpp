@@ -90,6 +90,8 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
         request.faceSizePx = static_cast<int>(*size);
     }
     request.samples = static_cast<int>(fields.wholeNumber("samples", 1, kMostSamples).value_or(1));
+    if (const auto anisotropy = fields.wholeNumber("anisotropy", 1, kMostAnisotropy))
+        request.anisotropy = static_cast<int>(*anisotropy);
     readName(fields, "style", styleFromName, styleNames, request.style);
     readName(fields, "output_kind", outputKindFromName, outputKindNames, request.output);
     decodeFormat(fields, call);

@@ -116,4 +116,10 @@ EglContext::EglContext() : handles_(std::make_unique<Handles>()) {
 
 EglContext::~EglContext() = default;
 
+bool EglContext::isSoftware() const {
+    for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"})
+        if (rendererName_.find(name) != std::string::npos) return true;
+    return false;
+}
+
 }  // namespace curvewall

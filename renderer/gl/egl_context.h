@@ -24,6 +24,7 @@ public:
     EglContext& operator=(const EglContext&) = delete;
 
     const std::string& rendererName() const { return rendererName_; }
+    bool isSoftware() const;  // one of Mesa's renderers without a GPU
 
 private:
     struct Handles;

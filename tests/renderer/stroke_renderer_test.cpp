@@ -79,13 +79,13 @@ Frame draw(const Drawing& drawing, const Scene& content) {
     SceneReplicators replicators = makeReplicators(Engine::compute, gpu);
     PiecewiseRenderer renderer(gpu, pieces, &replicators, drawing.look, {&owners, nullptr});
     if (gpu.strokes)
-        renderer.addStrokes(
-            std::make_unique<StrokeRenderer>(gpu, *gpu.strokes, strokePieces, drawing.look, &owners));
+        renderer.addStrokes(std::make_unique<StrokeRenderer>(
+            std::make_shared<const StrokePrograms>(*scene, drawing.look, owners.hasHoles()), gpu,
+            *gpu.strokes, strokePieces, &owners));
     const SampledTarget target(sizePx, {drawing.look.output, true}, drawing.samples);
     const SceneView view = sceneViewOf(drawing.camera, drawing.on.wall.eyeM, *scene);
     for (bool isDone = false; !isDone;) {
-        target.draw(drawing.on.wall.background,
-                    [&](const FramePass& pass) { renderer.record(view, pass); });
+        target.draw(drawing.on.wall.background, [&](const FramePass& pass) { renderer.record(view, pass); });
         glFinish();
         isDone = !renderer.finishFrame().overflowed;
     }
