@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -26,10 +27,10 @@ uint32_t largestCapacity() {
     return static_cast<uint32_t>(std::min<uint64_t>(static_cast<uint64_t>(bytes) / kPairBytes, 1u << 30));
 }
 
-GlProgram computeProgram(std::string_view file, const std::string& mode) {
-    return makeProgram({{GL_COMPUTE_SHADER, file}},
-                       {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
-                        "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u"});
+GlProgram computeProgram(std::string_view file, std::vector<std::string> defines) {
+    defines.push_back("GROUP_SIZE " + std::to_string(kGroupSize));
+    defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
+    return makeProgram({{GL_COMPUTE_SHADER, file}}, defines);
 }
 
 void setView(const GlProgram& program, const SceneView& view) {
@@ -77,15 +78,17 @@ void ScenePart::update() {
     }
 }
 
-Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs)
-    : mark_(computeProgram("meshlets.comp", "MARK")),
-      scanMeshlets_(computeProgram("scan.comp", "MESHLETS")),
-      gather_(computeProgram("meshlets.comp", "GATHER")),
-      count_(computeProgram("coverage.comp", "COUNT")),
-      scanPairs_(computeProgram("scan.comp", "PAIRS")),
-      emit_(computeProgram("coverage.comp", "EMIT")),
-      commandsProgram_(computeProgram("draw_commands.comp", "COMMANDS")),
-      mostPairs_(std::min(mostPairs, largestCapacity())) {
+Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs, MeshletLookup lookup)
+    : markByTree_(computeProgram("meshlets.comp", {"MARK"})),
+      markByGrid_(computeProgram("meshlets.comp", {"MARK", "GRID"})),
+      scanMeshlets_(computeProgram("scan.comp", {"MESHLETS"})),
+      gather_(computeProgram("meshlets.comp", {"GATHER"})),
+      count_(computeProgram("coverage.comp", {"COUNT"})),
+      scanPairs_(computeProgram("scan.comp", {"PAIRS"})),
+      emit_(computeProgram("coverage.comp", {"EMIT"})),
+      commandsProgram_(computeProgram("draw_commands.comp", {"COMMANDS"})),
+      mostPairs_(std::min(mostPairs, largestCapacity())),
+      lookup_(lookup) {
     for (const SceneChunk& chunk : chunks) {
         const uint32_t mostMeshlets = chunk.changes ? chunk.triangleCount : chunk.meshletCount;
         for (uint32_t first = 0; first < mostMeshlets; first += kMostPartMeshlets)
@@ -135,36 +138,51 @@ void Coverage::allocate() {
     glClearNamedBufferData(totalsBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
+void Coverage::findMeshlets(size_t index, const GpuPieces& pieces, const SceneView& view) {
+    const ScenePart& part = parts_[index];
+    const bool byGrid = lookup_ == MeshletLookup::grid && pieces.nodeGrid.id() != 0;
+    const GlProgram& mark = byGrid ? markByGrid_ : markByTree_;
+    bindStorage(2, byGrid ? pieces.nodeGrid : pieces.nodes);
+    bindStorage(3, part.chunk->meshlets);
+    bindStorage(4, groupSeen_);
+    bindStorage(5, meshletNodes_);
+    bindStorage(10, seen_);
+    bindStorage(11, placeOf_);
+    bindStorage(12, dispatch_);
+
+    const uint32_t groups = groupsFor(part.meshletCount);
+    setView(mark, view);
+    if (!byGrid) glProgramUniform1ui(mark.id(), 4, pieces.nodeCount);
+    for (const GlProgram* program : {&mark, &std::as_const(gather_)}) {
+        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
+        glProgramUniform1ui(program->id(), 5, part.meshletCount);
+    }
+    glProgramUniform1ui(scanMeshlets_.id(), 6, groups);
+    dispatch(mark, groups);
+    dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
+    dispatch(gather_, groups);
+}
+
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid) {
+    findMeshlets(index, pieces, view);
     const ScenePart& part = parts_[index];
     bindStorage(0, part.chunk->positions);
     bindStorage(1, part.chunk->corners);
     bindStorage(2, pieces.nodes);
-    bindStorage(3, part.chunk->meshlets);
-    bindStorage(5, meshletNodes_);
+    bindStorage(4, groupPairs_);
     bindStorage(6, pairs_);
     bindStorage(7, found_);
     bindStorage(8, pieces.corners);
     bindStorage(9, pieces.pieces);
-    bindStorage(10, seen_);
-    bindStorage(11, placeOf_);
-    bindStorage(12, dispatch_);
     bindStorage(13, totalsBuffer_);
     bindStorage(14, commands_);
     bindStorage(15, part.rangeBuffer);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch_.id());
 
-    const uint32_t meshletGroups = groupsFor(part.meshletCount);
-    for (const GlProgram* program : {&mark_, &gather_, &count_, &emit_})
-        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
-    for (const GlProgram* program : {&mark_, &gather_})
-        glProgramUniform1ui(program->id(), 5, part.meshletCount);
-    glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
-    for (const GlProgram* program : {&mark_, &count_, &emit_}) {
-        setView(*program, view);
-        glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
-    }
     for (const GlProgram* program : {&count_, &emit_}) {
+        setView(*program, view);
+        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
+        glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
         glProgramUniform1ui(program->id(), 15, static_cast<GLuint>(3 + pieces.clipPlanes));
         glProgramUniform4fv(program->id(), 16, 1, &sampleGrid[0]);
     }
@@ -174,11 +192,6 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     glProgramUniform1ui(commandsProgram_.id(), 5, capacity_);
     glProgramUniform1ui(commandsProgram_.id(), 8, ranges);
 
-    bindStorage(4, groupSeen_);
-    dispatch(mark_, meshletGroups);
-    dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
-    dispatch(gather_, meshletGroups);
-    bindStorage(4, groupPairs_);
     dispatchIndirect(count_);
     dispatch(scanPairs_, 1);
     dispatchIndirect(emit_);

@@ -33,19 +33,30 @@ struct ScenePart {
     void update();
 };
 
+// How the piece tree's nodes for a meshlet are found. Where the pieces have no grid it is always the tree.
+enum class MeshletLookup { tree, grid };
+
 // The compute engine: no read-back within a frame. Buffers grow between frames only.
 class Coverage {
 public:
     // The chunks must outlive it. `mostPairs` limits the pairs of a part below what the driver allows.
-    explicit Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u);
+    explicit Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u,
+                      MeshletLookup lookup = MeshletLookup::grid);
 
     const std::vector<ScenePart>& parts() const { return parts_; }
 
     // Before the parts of a frame. Buffers grow here where a chunk that changes has outgrown them.
     void beginFrame();
 
-    // Leaves the pairs and one indirect draw command a range in pairs() and commands(). What lies between the
-    // points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing out.
+    // The first level alone: leaves the nodes of each meshlet of the part in meshletNodes().
+    void findMeshlets(size_t part, const GpuPieces& pieces, const SceneView& view);
+    const GlBuffer& meshletNodes() const {
+        return meshletNodes_;
+    }  // of two uints, equal where it shows nothing
+
+    // Both levels. Leaves the pairs and one indirect draw command a range in pairs() and commands(). What
+    // lies between the points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing
+    // out.
     void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid);
     const GlBuffer& pairs() const { return pairs_; }
     const GlBuffer& commands() const { return commands_; }
@@ -57,9 +68,10 @@ private:
     void allocate();
     uint32_t totalOf(size_t part) const { return totals_[part]; }
 
-    GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
+    GlProgram markByTree_, markByGrid_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
     uint32_t mostPairs_;
+    MeshletLookup lookup_;
     uint32_t capacity_ = 0;  // pairs
     uint32_t meshletCapacity_ = 0;
     size_t rangeCapacity_ = 0;

@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/pieces/ownership.h"
 #include "calibration/pieces/piece_tree.h"
+#include "renderer/node_grid.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -46,14 +47,33 @@ std::vector<glm::vec4> pieceRows(const PieceMesh& mesh, size_t clipPlanes) {
     return rows;
 }
 
-std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh, double guardPx) {
+std::vector<GpuConeNode> gpuNodes(std::span<const ConeNode> tree) {
     std::vector<GpuConeNode> nodes;
-    for (const ConeNode& node : buildPieceTree(mesh, guardPx)) {
+    for (const ConeNode& node : tree) {
         GpuConeNode& gpu = nodes.emplace_back();
         for (size_t i = 0; i < kMostPieceEdges; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
         gpu.link = {node.next, static_cast<uint32_t>(node.piece), node.planeCount, 0};
     }
     return nodes;
+}
+
+// As shaders/grid_lookup.glsl reads it.
+struct GpuGridHeader {
+    glm::vec4 right, down, ahead;
+    glm::vec2 least, cellsPerUnit;
+    glm::ivec4 width;
+};
+static_assert(sizeof(GpuGridHeader) == 80);
+
+GlBuffer gpuGrid(const NodeGrid& grid) {
+    const auto axis = [](glm::dvec3 direction) { return glm::vec4(glm::vec3(direction), 0); };
+    const GpuGridHeader header{axis(grid.right), axis(grid.down),   axis(grid.ahead),
+                               grid.least,       grid.cellsPerUnit, glm::ivec4(grid.width)};
+    const size_t rangeBytes = grid.ranges.size() * sizeof grid.ranges[0];
+    GlBuffer buffer = makeBuffer(nullptr, sizeof header + rangeBytes, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferSubData(buffer.id(), 0, sizeof header, &header);
+    glNamedBufferSubData(buffer.id(), sizeof header, static_cast<GLsizeiptr>(rangeBytes), grid.ranges.data());
+    return buffer;
 }
 
 std::vector<glm::vec4> guardedCornersOfAll(const PieceMesh& mesh, double guardPx) {
@@ -98,9 +118,12 @@ GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     const std::vector<glm::vec4> rows = pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes));
     gpu.firstRows = {glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
     gpu.pieces = makeBuffer(std::span<const glm::vec4>(rows));
-    const std::vector<GpuConeNode> nodes = gpuNodes(mesh, guardPx);
+    const std::vector<ConeNode> tree = buildPieceTree(mesh, guardPx);
+    const std::vector<GpuConeNode> nodes = gpuNodes(tree);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
+    if (const std::optional<NodeGrid> grid = buildNodeGrid(mesh, tree, guardPx))
+        gpu.nodeGrid = gpuGrid(*grid);
     gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh, guardPx)));
     return gpu;
 }
