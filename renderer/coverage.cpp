@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace curvewall {
 namespace {
@@ -130,7 +129,7 @@ void Coverage::allocate() {
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
     commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
     constexpr GLbitfield kMapping = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const size_t totalBytes = sizeof(uint32_t) * std::max<size_t>(parts_.size(), 1);
+    const size_t totalBytes = 2 * sizeof(uint32_t) * std::max<size_t>(parts_.size(), 1);
     totalsBuffer_ = makeBuffer(nullptr, totalBytes, kMapping);
     totals_ = static_cast<const volatile uint32_t*>(
         glMapNamedBufferRange(totalsBuffer_.id(), 0, static_cast<GLsizeiptr>(totalBytes), kMapping));
@@ -138,60 +137,57 @@ void Coverage::allocate() {
     glClearNamedBufferData(totalsBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
-void Coverage::findMeshlets(size_t index, const GpuPieces& pieces, const SceneView& view) {
+void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
+                         StageTimer* timer) {
     const ScenePart& part = parts_[index];
     const bool byGrid = lookup_ == MeshletLookup::grid && pieces.nodeGrid.id() != 0;
-    const GlProgram& mark = byGrid ? markByGrid_ : markByTree_;
-    bindStorage(2, byGrid ? pieces.nodeGrid : pieces.nodes);
-    bindStorage(3, part.chunk->meshlets);
-    bindStorage(4, groupSeen_);
-    bindStorage(5, meshletNodes_);
-    bindStorage(10, seen_);
-    bindStorage(11, placeOf_);
-    bindStorage(12, dispatch_);
-
-    const uint32_t groups = groupsFor(part.meshletCount);
-    setView(mark, view);
-    if (!byGrid) glProgramUniform1ui(mark.id(), 4, pieces.nodeCount);
-    for (const GlProgram* program : {&mark, &std::as_const(gather_)}) {
-        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
-        glProgramUniform1ui(program->id(), 5, part.meshletCount);
-    }
-    glProgramUniform1ui(scanMeshlets_.id(), 6, groups);
-    dispatch(mark, groups);
-    dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
-    dispatch(gather_, groups);
-}
-
-void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid) {
-    findMeshlets(index, pieces, view);
-    const ScenePart& part = parts_[index];
+    GlProgram& mark = byGrid ? markByGrid_ : markByTree_;
     bindStorage(0, part.chunk->positions);
     bindStorage(1, part.chunk->corners);
-    bindStorage(2, pieces.nodes);
-    bindStorage(4, groupPairs_);
+    bindStorage(2, byGrid ? pieces.nodeGrid : pieces.nodes);
+    bindStorage(3, part.chunk->meshlets);
+    bindStorage(5, meshletNodes_);
     bindStorage(6, pairs_);
     bindStorage(7, found_);
     bindStorage(8, pieces.corners);
     bindStorage(9, pieces.pieces);
+    bindStorage(10, seen_);
+    bindStorage(11, placeOf_);
+    bindStorage(12, dispatch_);
     bindStorage(13, totalsBuffer_);
     bindStorage(14, commands_);
     bindStorage(15, part.rangeBuffer);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch_.id());
 
+    const uint32_t meshletGroups = groupsFor(part.meshletCount);
+    for (const GlProgram* program : {&mark, &gather_, &count_, &emit_})
+        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
+    for (const GlProgram* program : {&mark, &gather_})
+        glProgramUniform1ui(program->id(), 5, part.meshletCount);
+    glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
+    setView(mark, view);
+    if (!byGrid) glProgramUniform1ui(mark.id(), 4, pieces.nodeCount);
     for (const GlProgram* program : {&count_, &emit_}) {
         setView(*program, view);
-        glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
         glProgramUniform1ui(program->id(), 4, pieces.nodeCount);
         glProgramUniform1ui(program->id(), 15, static_cast<GLuint>(3 + pieces.clipPlanes));
         glProgramUniform4fv(program->id(), 16, 1, &sampleGrid[0]);
     }
     glProgramUniform1ui(emit_.id(), 5, capacity_);
-    glProgramUniform1ui(scanPairs_.id(), 7, static_cast<GLuint>(index));
+    for (const GlProgram* program : {&scanMeshlets_, &scanPairs_})
+        glProgramUniform1ui(program->id(), 7, static_cast<GLuint>(index));
     const auto ranges = static_cast<uint32_t>(part.ranges.size());
     glProgramUniform1ui(commandsProgram_.id(), 5, capacity_);
     glProgramUniform1ui(commandsProgram_.id(), 8, ranges);
 
+    if (timer) timer->begin("meshlets");
+    bindStorage(4, groupSeen_);
+    dispatch(mark, meshletGroups);
+    dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
+    dispatch(gather_, meshletGroups);
+    if (timer) timer->begin("triangles");
+    bindStorage(2, pieces.nodes);
+    bindStorage(4, groupPairs_);
     dispatchIndirect(count_);
     dispatch(scanPairs_, 1);
     dispatchIndirect(emit_);
@@ -203,8 +199,9 @@ FrameOutcome Coverage::finishFrame() {
     FrameOutcome outcome;
     uint64_t needed = 0;
     for (size_t i = 0; i < parts_.size(); ++i) {
-        outcome.pairCount += totalOf(i);
-        needed = std::max<uint64_t>(needed, totalOf(i));
+        outcome.pairCount += pairsOf(i);
+        outcome.meshletCount += meshletsOf(i);
+        needed = std::max<uint64_t>(needed, pairsOf(i));
     }
     outcome.overflowed = needed > capacity_;
     if (needed > mostPairs_) splitParts();
@@ -215,11 +212,19 @@ FrameOutcome Coverage::finishFrame() {
     return outcome;
 }
 
+size_t Coverage::memoryBytes() const {
+    size_t bytes = 0;
+    for (const GlBuffer* buffer : {&groupSeen_, &meshletNodes_, &seen_, &placeOf_, &dispatch_, &groupPairs_,
+                                   &found_, &pairs_, &commands_, &totalsBuffer_})
+        bytes += sizeOf(*buffer);
+    return bytes;
+}
+
 void Coverage::splitParts() {
     std::vector<ScenePart> parts;
     for (size_t i = 0; i < parts_.size(); ++i) {
         ScenePart& part = parts_[i];
-        if (totalOf(i) <= mostPairs_ || part.meshletCount == 1) {
+        if (pairsOf(i) <= mostPairs_ || part.meshletCount == 1) {
             parts.push_back(std::move(part));
         } else {
             const uint32_t half = part.meshletCount / 2;

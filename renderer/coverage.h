@@ -33,7 +33,7 @@ struct ScenePart {
     void update();
 };
 
-// How the piece tree's nodes for a meshlet are found. Where the pieces have no grid it is always the tree.
+// How the nodes of the piece tree for a meshlet are found. Pieces without a grid are always walked to.
 enum class MeshletLookup { tree, grid };
 
 // The compute engine: no read-back within a frame. Buffers grow between frames only.
@@ -48,25 +48,24 @@ public:
     // Before the parts of a frame. Buffers grow here where a chunk that changes has outgrown them.
     void beginFrame();
 
-    // The first level alone: leaves the nodes of each meshlet of the part in meshletNodes().
-    void findMeshlets(size_t part, const GpuPieces& pieces, const SceneView& view);
-    const GlBuffer& meshletNodes() const {
-        return meshletNodes_;
-    }  // of two uints, equal where it shows nothing
-
-    // Both levels. Leaves the pairs and one indirect draw command a range in pairs() and commands(). What
-    // lies between the points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing
-    // out.
-    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid);
+    // Leaves the pairs and one indirect draw command a range in pairs() and commands(). What lies between the
+    // points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing out.
+    void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
+                   StageTimer* timer = nullptr);
     const GlBuffer& pairs() const { return pairs_; }
+    // Of each meshlet of the part: the first of its nodes and the one after the last.
+    const GlBuffer& meshletNodes() const { return meshletNodes_; }
     const GlBuffer& commands() const { return commands_; }
 
     FrameOutcome finishFrame();
 
+    size_t memoryBytes() const;
+
 private:
     void splitParts();
     void allocate();
-    uint32_t totalOf(size_t part) const { return totals_[part]; }
+    uint32_t pairsOf(size_t part) const { return totals_[2 * part]; }
+    uint32_t meshletsOf(size_t part) const { return totals_[2 * part + 1]; }
 
     GlProgram markByTree_, markByGrid_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;

@@ -28,11 +28,7 @@ void appendFrom(const GlBuffer& buffer, std::vector<T>& values, size_t count) {
                             values.data() + values.size() - count);
 }
 
-size_t vertexCountOf(const SceneChunk& chunk) {
-    GLint64 bytes = 0;
-    glGetNamedBufferParameteri64v(chunk.positions.id(), GL_BUFFER_SIZE, &bytes);
-    return static_cast<size_t>(bytes) / sizeof(glm::vec3);
-}
+size_t vertexCountOf(const SceneChunk& chunk) { return sizeOf(chunk.positions) / sizeof(glm::vec3); }
 
 // The chunks as one mesh again: their triangles may be in another order than the scene's.
 struct WholeMesh {

@@ -236,4 +236,24 @@ GpuScene uploadScene(ScenePtr scene) {
     return uploaded;
 }
 
+uint64_t meshletCountOf(const GpuScene& scene) {
+    uint64_t count = scene.blended ? scene.blended->chunk().meshletCount : 0;
+    for (const SceneChunk& chunk : scene.chunks) count += chunk.meshletCount;
+    return count;
+}
+
+size_t memoryBytesOf(const GpuScene& scene) {
+    size_t bytes = 0;
+    const auto add = [&bytes](const SceneChunk& chunk) {
+        for (const GlBuffer* buffer :
+             {&chunk.positions, &chunk.normals, &chunk.uvs, &chunk.corners, &chunk.meshlets, &chunk.across})
+            bytes += sizeOf(*buffer);
+    };
+    for (const SceneChunk& chunk : scene.chunks) add(chunk);
+    if (scene.blended) add(scene.blended->chunk());
+    for (const Texture& texture : scene.scene->textures)
+        for (const MipLevel& level : texture.levels) bytes += sizeof(glm::u8vec4) * level.texels.size();
+    return bytes;
+}
+
 }  // namespace curvewall

@@ -65,6 +65,9 @@ struct GpuScene {
     std::vector<GlSampler> samplers;  // one a texture
 };
 
+uint64_t meshletCountOf(const GpuScene& scene);
+size_t memoryBytesOf(const GpuScene& scene);  // textures included, strokes not
+
 // Throws UsageError when a texture is larger than the driver allows.
 GpuScene uploadScene(ScenePtr scene);
 

@@ -17,7 +17,7 @@ GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double 
 
 ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs,
                                        const GpuScene& scene, const GpuSource& source)
-    : source_(source) {
+    : programs_(programs), source_(source) {
     for (size_t i = 0; i < source.faces.size(); ++i) {
         PiecewiseRenderer& face =
             faces_.emplace_back(programs, scene, source.faces[i], nullptr, PieceOwners{});
@@ -29,21 +29,23 @@ ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms
 
 void ImageBasedRenderer::record(const SceneView& view, const FacePictures& pictures,
                                 const Resampler& resampler, const FrameTarget& target, glm::vec3 background) {
+    timer_.begin("faces");
     for (size_t i = 0; i < faces_.size(); ++i)
         pictures.draw(i, background, [&](const FramePass& pass) { faces_[i].record(view, pass); });
+    timer_.begin("resample");
     resampler.record(pictures.texture(), source_.places, target, background);
+    timer_.end();
 }
 
-std::optional<uint64_t> ImageBasedRenderer::finishFrame() {
-    uint64_t triangles = 0;
-    bool overflowed = false;
-    for (PiecewiseRenderer& face : faces_) {
-        const std::optional<uint64_t> drawn = face.finishFrame();
-        overflowed = overflowed || !drawn;
-        triangles += drawn.value_or(0);
-    }
-    if (overflowed) return std::nullopt;
-    return triangles;
+FrameOutcome ImageBasedRenderer::finishFrame() {
+    FrameOutcome outcome;
+    for (PiecewiseRenderer& face : faces_) outcome += face.finishFrame();
+    return outcome;
+}
+
+std::vector<StageTime> ImageBasedRenderer::takeStageTimes() {
+    for (PiecewiseRenderer& face : faces_) face.takeStageTimes();
+    return timer_.take();
 }
 
 }  // namespace curvewall

@@ -9,7 +9,6 @@
 #include "renderer/resampler.h"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace curvewall {
@@ -36,13 +35,20 @@ public:
     void record(const SceneView& view, const FacePictures& pictures, const Resampler& resampler,
                 const FrameTarget& target, glm::vec3 background);
 
-    // Triangles drawn into faces, or nothing where strokes found no room: then record the frame once more.
-    // Call it after the GPU has finished.
-    std::optional<uint64_t> finishFrame();
+    // What the frame just finished took, over all faces. Call it after the GPU has finished; where it
+    // overflowed, record the frame once more.
+    FrameOutcome finishFrame();
+
+    const ScenePrograms& programs() const { return *programs_; }
+
+    // Of the frames since it was asked last.
+    std::vector<StageTime> takeStageTimes();
 
 private:
+    std::shared_ptr<const ScenePrograms> programs_;
     const GpuSource& source_;
     std::vector<PiecewiseRenderer> faces_;
+    StageTimer timer_;
 };
 
 }  // namespace curvewall

@@ -5,6 +5,7 @@
 namespace curvewall {
 
 void LoopReplicator::draw(const PieceDraw& draw) {
+    draw.timer.begin("surfaces");
     bindStorage(2, draw.pieces.pieces);
     for (const SceneChunk& chunk : chunks_) {
         draw.materials.bindVertices(chunk);
@@ -23,6 +24,6 @@ void LoopReplicator::draw(const PieceDraw& draw) {
     }
 }
 
-FrameOutcome LoopReplicator::finishFrame() { return {std::exchange(pairCount_, 0), false}; }
+FrameOutcome LoopReplicator::finishFrame() { return {.pairCount = std::exchange(pairCount_, 0)}; }
 
 }  // namespace curvewall

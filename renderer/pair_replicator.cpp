@@ -8,7 +8,8 @@ PairReplicator::PairReplicator(std::span<const SceneChunk> chunks, uint32_t most
 void PairReplicator::draw(const PieceDraw& draw) {
     coverage_.beginFrame();
     for (size_t i = 0; i < coverage_.parts().size(); ++i) {
-        coverage_.findPairs(i, draw.pieces, draw.view, sampleGridOf(draw.pieces, draw.pass));
+        coverage_.findPairs(i, draw.pieces, draw.view, sampleGridOf(draw.pieces, draw.pass), &draw.timer);
+        draw.timer.begin("surfaces");
         drawPairs(coverage_.parts()[i], draw);
     }
 }

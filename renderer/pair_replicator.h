@@ -16,6 +16,8 @@ public:
     void draw(const PieceDraw& draw) override;
     FrameOutcome finishFrame() override { return coverage_.finishFrame(); }
 
+    size_t memoryBytes() const override { return coverage_.memoryBytes(); }
+
     const Coverage& coverage() const { return coverage_; }
 
 private:

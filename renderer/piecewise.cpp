@@ -16,6 +16,10 @@ void enableClipPlanes(int count) {
 
 }  // namespace
 
+size_t memoryBytesOf(const SceneReplicators& replicators) {
+    return replicators.opaque->memoryBytes() + (replicators.blended ? replicators.blended->memoryBytes() : 0);
+}
+
 SceneReplicators makeReplicators(Engine engine, const GpuScene& scene) {
     SceneReplicators replicators{engine, makeReplicator(engine, scene.chunks), nullptr};
     if (scene.blended) replicators.blended = makeReplicator(engine, blendedChunk(scene));
@@ -60,22 +64,32 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
 }
 
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
-    if (holesProgram_) closeHoles();
+    if (holesProgram_) {
+        timer_.begin("holes");
+        closeHoles();
+    }
     programs_->setFrame(view, pieces_, pass);
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     const MaterialBinder materials{scene_, *programs_};
-    const PieceDraw draw{pieces_, view, pass, materials};
+    const PieceDraw draw{pieces_, view, pass, materials, timer_};
     prepareSurfaces();
     if (replicators_)
         replicators_->opaque->draw(draw);
     else
         plainDraw_->draw(scene_.chunks, draw);
-    if (strokes_) strokes_->recordSolid(view, pass);
+    if (strokes_) {
+        timer_.begin("strokes");
+        strokes_->recordSolid(view, pass);
+    }
     // Distances and points are those of what hides the rest.
     if (scene_.blended && (output() == OutputKind::color || output() == OutputKind::coverage))
         recordBlended(draw);
-    if (strokes_) strokes_->recordBlended(view, pass);
+    if (strokes_) {
+        timer_.begin("strokes");
+        strokes_->recordBlended(view, pass);
+    }
+    timer_.end();
 }
 
 void PiecewiseRenderer::prepareSurfaces() const {
@@ -109,18 +123,13 @@ void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {
     glDepthMask(GL_TRUE);
 }
 
-std::optional<uint64_t> PiecewiseRenderer::finishFrame() {
+FrameOutcome PiecewiseRenderer::finishFrame() {
     FrameOutcome outcome;
-    const auto add = [&outcome](const FrameOutcome& part) {
-        outcome.pairCount += part.pairCount;
-        outcome.overflowed = outcome.overflowed || part.overflowed;
-    };
-    if (strokes_) add(strokes_->finishFrame());
-    if (plainDraw_) add({plainDraw_->takeTriangleCount(), false});
-    if (replicators_) add(replicators_->opaque->finishFrame());
-    if (replicators_ && replicators_->blended) add(replicators_->blended->finishFrame());
-    if (outcome.overflowed) return std::nullopt;
-    return outcome.pairCount;
+    if (strokes_) outcome += strokes_->finishFrame();
+    if (plainDraw_) outcome += plainDraw_->finishFrame();
+    if (replicators_) outcome += replicators_->opaque->finishFrame();
+    if (replicators_ && replicators_->blended) outcome += replicators_->blended->finishFrame();
+    return outcome;
 }
 
 }  // namespace curvewall

@@ -20,6 +20,8 @@ struct SceneReplicators {
     std::unique_ptr<Replicator> opaque, blended;  // the second where the scene has such triangles
 };
 
+size_t memoryBytesOf(const SceneReplicators& replicators);
+
 SceneReplicators makeReplicators(Engine engine, const GpuScene& scene);
 
 // Whose a pixel is. Each may be null where nothing asks for it.
@@ -53,9 +55,14 @@ public:
     // Draws into the bound framebuffer. Records GL work only: nothing is compiled or read back.
     void record(const SceneView& view, const FramePass& pass = {});
 
-    // Pairs of the frame just finished, or nothing when some found no room: then record it once more.
-    // Call it after the GPU has finished.
-    std::optional<uint64_t> finishFrame();
+    // What the frame just finished took. Call it after the GPU has finished; where it overflowed, record the
+    // frame once more.
+    FrameOutcome finishFrame();
+
+    const ScenePrograms& programs() const { return *programs_; }
+
+    // Of the frames since it was asked last.
+    std::vector<StageTime> takeStageTimes() { return timer_.take(); }
 
 private:
     void closeHoles() const;
@@ -72,6 +79,7 @@ private:
     std::unique_ptr<StrokeRenderer> strokes_;
     GlProgram holesProgram_;  // where there are holes
     GlVertexArray emptyVertexArray_;
+    StageTimer timer_;
 };
 
 }  // namespace curvewall

@@ -4,8 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <utility>
-
 namespace curvewall {
 PlainDraw::PlainDraw(const GpuPieces& pieces) {
     // Clip space is |x| <= w and |y| <= w, and each of these is a plane through the eye.
@@ -22,7 +20,9 @@ void PlainDraw::findRuns(const SceneChunk& chunk, const ChunkRange& range, const
     }
     for (uint32_t i = range.firstMeshlet; i < range.firstMeshlet + range.meshletCount; ++i) {
         const Meshlet& meshlet = chunk.meshletBounds[i];
-        if (isSeen(meshlet, range.isSingleSided, view)) add(meshlet.firstTriangle, meshlet.triangleCount);
+        if (!isSeen(meshlet, range.isSingleSided, view)) continue;
+        add(meshlet.firstTriangle, meshlet.triangleCount);
+        ++drawn_.meshletCount;
     }
 }
 
@@ -37,10 +37,11 @@ bool PlainDraw::isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneVi
 
 void PlainDraw::add(uint32_t firstTriangle, uint32_t triangleCount) {
     runs_.add(firstTriangle, triangleCount);
-    triangleCount_ += triangleCount;
+    drawn_.pairCount += triangleCount;
 }
 
 void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) {
+    draw.timer.begin("surfaces");
     bindStorage(2, draw.pieces.pieces);
     for (const SceneChunk& chunk : chunks) {
         draw.materials.bindVertices(chunk);
@@ -52,7 +53,5 @@ void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) 
         }
     }
 }
-
-uint64_t PlainDraw::takeTriangleCount() { return std::exchange(triangleCount_, 0); }
 
 }  // namespace curvewall

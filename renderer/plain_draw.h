@@ -5,6 +5,7 @@
 #include "renderer/triangle_runs.h"
 
 #include <array>
+#include <utility>
 
 namespace curvewall {
 
@@ -16,8 +17,8 @@ public:
     // Leaves out the meshlets that lie beside the picture or are seen from behind.
     void draw(std::span<const SceneChunk> chunks, const PieceDraw& draw);
 
-    // Triangles drawn since it was asked last.
-    uint64_t takeTriangleCount();
+    // Triangles and meshlets drawn since it was asked last.
+    FrameOutcome finishFrame() { return std::exchange(drawn_, {}); }
 
 private:
     bool isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneView& view) const;
@@ -26,7 +27,7 @@ private:
 
     std::array<glm::vec3, 4> sides_;  // planes through the eye, length one, and the sides of the picture
     TriangleRuns runs_;
-    uint64_t triangleCount_ = 0;
+    FrameOutcome drawn_;
 };
 
 }  // namespace curvewall

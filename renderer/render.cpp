@@ -5,6 +5,7 @@
 #include "calibration/stopwatch.h"
 #include "renderer/blended_target.h"
 #include "renderer/blending.h"
+#include "renderer/frame_measurement.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/gpu_edges.h"
 #include "renderer/names.h"
@@ -18,8 +19,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 
@@ -32,18 +31,20 @@ double peakMemoryMib() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+double mebibytes(size_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
+
+void describe(const PreparedScene& scene, const ScenePrograms& programs, RenderStats& stats) {
+    stats.meshlets = meshletCountOf(scene.gpu);
+    stats.attributes = programs.attributes();
+    stats.sceneMemoryMib = mebibytes(memoryBytesOf(scene.gpu));
+}
+
 GeometricError errorOf(const Certificate& certificate) {
     return {certificate.maxPx, certificate.p99Px, certificate.meanPx};
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point time) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - time).count();
-}
-
-Camera cameraOfFrame(const RenderRequest& request, int frame) {
-    Camera camera = request.camera;
-    camera.orientation.yawRad += 2 * std::numbers::pi * frame / request.frames;
-    return camera;
 }
 
 struct EyeKey {
@@ -75,25 +76,6 @@ void waitForGpu() {
         status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kOneSecondNs);
     glDeleteSync(fence);
     if (status == GL_WAIT_FAILED) throw std::runtime_error("OpenGL failed in the middle of a frame");
-}
-
-// Draws all frames and measures them. `draw` finishes its frame; `readFirst` is called after frame 0, outside
-// the time.
-void measureFrames(const RenderRequest& request, const std::function<void(const Camera&)>& draw,
-                   const std::function<void()>& readFirst, RenderStats& stats) {
-    // A driver compiles its last parts at the first draw; the reference has nothing to compile.
-    if (request.frames > 1 && request.method != Method::reference) draw(cameraOfFrame(request, 0));
-    std::vector<double> frameMs;
-    for (int frame = 0; frame < request.frames; ++frame) {
-        const Stopwatch drawing;
-        draw(cameraOfFrame(request, frame));
-        frameMs.push_back(drawing.ms());
-        if (frame == 0) readFirst();
-    }
-    std::ranges::sort(frameMs);
-    stats.frameMsMedian = frameMs[frameMs.size() / 2];
-    stats.frameMsMin = frameMs.front();
-    stats.frameMsMax = frameMs.back();
 }
 
 }  // namespace
@@ -195,24 +177,26 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const auto drawn = preparedDraw(request, *scene, prepared, target, samples);
     stats.prepareMs = preparing.ms();
 
-    uint64_t pairsOfFrame = 0;
+    FrameOutcome outcome;
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
-        std::optional<uint64_t> pairs;
-        while (!pairs) {
+        do {
             target.draw(request.wall->background,
                         [&](const FramePass& pass) { drawn->renderer.record(view, pass); });
             blended.record(target.picture());
             waitForGpu();
-            pairs = drawn->renderer.finishFrame();
-        }
-        pairsOfFrame = *pairs;
+            outcome = drawn->renderer.finishFrame();
+        } while (outcome.overflowed);
     };
     const auto readFirst = [&] {
         result.frame = blended.read(target.picture());
-        stats.pairs = pairsOfFrame;
+        stats.pairs = outcome.pairCount;
+        stats.meshletsDrawn = outcome.meshletCount;
     };
-    measureFrames(request, draw, readFirst, stats);
+    measureFrames(request, {draw, readFirst, [&] { return drawn->renderer.takeStageTimes(); }}, stats);
+    describe(*scene, drawn->renderer.programs(), stats);
+    if (prepared->gpu.pieceCount > 1)
+        stats.pairsMemoryMib = mebibytes(memoryBytesOf(scene->replicatorsFor(request.engine)));
     stats.method = "piecewise";
     stats.engine = prepared->gpu.pieceCount > 1 ? nameOf(request.engine) : "plain";
     stats.tolerancePx = request.tolerancePx;
@@ -244,23 +228,23 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
     const FrameTarget target(display.sizePx, format, 1);
     stats.prepareMs = preparing.ms();
 
-    uint64_t pairs = 0;
+    FrameOutcome outcome;
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
-        std::optional<uint64_t> drawn;
-        while (!drawn) {
+        do {
             renderer->record(view, *pictures, *resampler, target, request.wall->background);
             blended.record(target);
             waitForGpu();
-            drawn = renderer->finishFrame();
-        }
-        pairs = *drawn;
+            outcome = renderer->finishFrame();
+        } while (outcome.overflowed);
     };
     const auto readFirst = [&] {
         result.frame = blended.read(target);
-        stats.pairs = pairs;
+        stats.pairs = outcome.pairCount;
+        stats.meshletsDrawn = outcome.meshletCount;
     };
-    measureFrames(request, draw, readFirst, stats);
+    measureFrames(request, {draw, readFirst, [&] { return renderer->takeStageTimes(); }}, stats);
+    describe(*scene, renderer->programs(), stats);
     stats.method = "image-based";
     stats.engine = nameOf(request.source);
     stats.source = nameOf(request.source);
@@ -284,8 +268,7 @@ RenderResult Renderer::Impl::reference(const RenderRequest& request, const Displ
         if (display.blend && request.output == OutputKind::color)
             blend(latest, *display.blend, mostLight(request.linearOutput));
     };
-    measureFrames(
-        request, draw, [&] { result.frame = std::move(latest); }, result.stats);
+    measureFrames(request, {draw, [&] { result.frame = std::move(latest); }}, result.stats);
     result.stats.method = "reference";
     result.stats.engine = "embree";
     result.stats.pairs = request.scene->triangles.size();

@@ -5,6 +5,13 @@
 
 namespace curvewall {
 
+FrameOutcome& FrameOutcome::operator+=(const FrameOutcome& other) {
+    pairCount += other.pairCount;
+    meshletCount += other.meshletCount;
+    overflowed = overflowed || other.overflowed;
+    return *this;
+}
+
 std::unique_ptr<Replicator> makeReplicator(Engine engine, std::span<const SceneChunk> chunks) {
     switch (engine) {
         case Engine::loop:

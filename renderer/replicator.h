@@ -3,6 +3,7 @@
 
 #include "renderer/engine.h"
 #include "renderer/frame_pass.h"
+#include "renderer/gl/stage_timer.h"
 #include "renderer/gpu_pieces.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/material_binder.h"
@@ -20,13 +21,17 @@ struct PieceDraw {
     const SceneView& view;
     const FramePass& pass;
     const MaterialBinder& materials;
+    StageTimer& timer;
 };
 
 // After the GPU has finished a frame: how many (triangle, piece) pairs it had, and whether some found no
 // room. Then there is more room now, and the frame must be drawn again.
 struct FrameOutcome {
     uint64_t pairCount = 0;
+    uint64_t meshletCount = 0;  // that showed something, where the engine looks at them
     bool overflowed = false;
+
+    FrameOutcome& operator+=(const FrameOutcome& other);
 };
 
 class Replicator {
@@ -38,6 +43,9 @@ public:
     virtual void draw(const PieceDraw& draw) = 0;
 
     virtual FrameOutcome finishFrame() = 0;
+
+    // Of its buffers.
+    virtual size_t memoryBytes() const { return 0; }
 };
 
 // For the chunks of a scene that outlive it.

@@ -2,6 +2,7 @@
 
 #include "renderer/coverage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -73,6 +74,17 @@ ScenePrograms::Chosen ScenePrograms::choose(const Material& material) const {
     glProgramUniform4fv(program, 10, 1, &material.baseColor[0]);
     if (variant.masked) glProgramUniform1f(program, 11, material.alphaCutoff);
     return {program, variant.textured, variant.blended};
+}
+
+std::vector<std::string> ScenePrograms::attributes() const {
+    const auto some = [this](bool Variant::*property) {
+        return std::ranges::any_of(programs_, [&](const auto& program) { return program.first.*property; });
+    };
+    std::vector<std::string> fetched{"position"};
+    if (some(&Variant::lit)) fetched.emplace_back("normal");
+    if (some(&Variant::textured)) fetched.insert(fetched.end(), {"uv", "texture"});
+    if (drawsEdges_) fetched.emplace_back("edges");
+    return fetched;
 }
 
 void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const {

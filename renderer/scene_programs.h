@@ -11,6 +11,7 @@
 #include <compare>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace curvewall {
 
@@ -44,6 +45,9 @@ public:
     ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path);
 
     SceneLook look() const { return look_; }
+
+    // What the programs fetch: position, and of normal, uv, texture and edges those that some material needs.
+    std::vector<std::string> attributes() const;
 
     // Makes the material's program current with its constants set. Textures are the caller's.
     struct Chosen {

@@ -19,12 +19,18 @@ nlohmann::json toJson(const RenderStats& stats) {
         {"triangles", stats.triangles},
         {"pairs", stats.pairs},
         {"replication_ratio", stats.replicationRatio()},
+        {"meshlets", stats.meshlets},
+        {"meshlets_drawn", stats.meshletsDrawn},
+        {"attributes", stats.attributes},
         {"samples", stats.samples},
         {"frames", stats.frames},
         {"frame_ms", {{"median", stats.frameMsMedian}, {"min", stats.frameMsMin}, {"max", stats.frameMsMax}}},
         {"prepare_ms", stats.prepareMs},
         {"gl_renderer", stats.glRenderer},
         {"peak_memory_mib", stats.peakMemoryMib}};
+    for (const auto& [stage, ms] : stats.stageMs) json["stage_ms"][stage] = ms;
+    if (stats.sceneMemoryMib > 0)
+        json["gpu_memory_mib"] = {{"scene", stats.sceneMemoryMib}, {"pairs", stats.pairsMemoryMib}};
     if (stats.method == "piecewise")
         json["certificate"] = {{"every", stats.certificateEvery},
                                {"full_age_ms", stats.fullCertificateAgeMs}};

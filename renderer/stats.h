@@ -15,6 +15,11 @@ struct GeometricError {
     double meanPx = 0;
 };
 
+struct StageMs {
+    std::string stage;
+    double ms = 0;
+};
+
 struct RenderStats {
     std::string method;
     std::string engine;      // "compute", "plain" (one piece: one plain draw), "cube", "planar", "embree"
@@ -25,17 +30,23 @@ struct RenderStats {
     double fullCertificateAgeMs = 0;  // piecewise: since the display was last certified at every pixel
     std::string source, filter;       // image-based, as are the next two
     int faceSizePx = 0;
-    int faces = 0;           // cube faces that the display sees, or the one planar picture
-    uint64_t triangles = 0;  // in the scene
-    uint64_t pairs = 0;      // (triangle, piece) pairs drawn in frame 0
+    int faces = 0;                        // cube faces that the display sees, or the one planar picture
+    uint64_t triangles = 0;               // in the scene
+    uint64_t pairs = 0;                   // (triangle, piece) pairs drawn in frame 0
+    uint64_t meshlets = 0;                // of the scene's surfaces
+    uint64_t meshletsDrawn = 0;           // in frame 0, where the engine looks at them
+    std::vector<std::string> attributes;  // that shaders fetch: position, normal, uv, texture, edges
     int samples = 1;
     int frames = 1;
     double frameMsMedian = 0;
     double frameMsMin = 0;
     double frameMsMax = 0;
-    double prepareMs = 0;    // fitting, certifying, upload, compilation: once, outside the frames
-    std::string glRenderer;  // empty for the reference
+    std::vector<StageMs> stageMs;  // on the GPU, medians over the frames
+    double prepareMs = 0;          // fitting, certifying, upload, compilation: once, outside the frames
+    std::string glRenderer;        // empty for the reference
     double peakMemoryMib = 0;
+    double sceneMemoryMib = 0;  // of the GPU, for the scene with its textures
+    double pairsMemoryMib = 0;  // and for what finds its pairs
 
     double replicationRatio() const {
         return triangles == 0 ? 0 : static_cast<double>(pairs) / static_cast<double>(triangles);

@@ -5,12 +5,12 @@ layout(local_size_x = GROUP_SIZE) in;
 
 layout(std430, binding = 4) buffer Counts { uint counts[]; };  // one more at the end becomes the sum of all
 layout(std430, binding = 12) buffer Dispatch { uint dispatch[3]; };
+layout(std430, binding = 13) buffer Totals { uint totals[]; };  // pairs and meshlets of each part; the CPU reads them later
+
 #ifdef MESHLETS
 layout(location = 6) uniform uint groupCount;
-#else
-layout(std430, binding = 13) buffer Totals { uint totals[]; };  // read and cleared by the CPU after the frame
-layout(location = 7) uniform uint part;
 #endif
+layout(location = 7) uniform uint part;
 
 shared uint sums[GROUP_SIZE];
 
@@ -46,8 +46,10 @@ void main() {
         dispatch[0] = sums[self];
         dispatch[1] = 1u;
         dispatch[2] = 1u;
+        uint total = 2u * part + 1u;
 #else
-        totals[part] = max(totals[part], sums[self]);  // of the passes of a frame
+        uint total = 2u * part;
 #endif
+        totals[total] = max(totals[total], sums[self]);  // of the passes of a frame
     }
 }

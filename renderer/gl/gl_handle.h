@@ -35,6 +35,7 @@ inline void deleteFramebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 inline void deleteRenderbuffer(GLuint id) { glDeleteRenderbuffers(1, &id); }
 inline void deleteVertexArray(GLuint id) { glDeleteVertexArrays(1, &id); }
 inline void deleteSampler(GLuint id) { glDeleteSamplers(1, &id); }
+inline void deleteQuery(GLuint id) { glDeleteQueries(1, &id); }
 inline void deleteShader(GLuint id) { glDeleteShader(id); }
 inline void deleteProgram(GLuint id) { glDeleteProgram(id); }
 
@@ -44,6 +45,7 @@ using GlFramebuffer = GlHandle<deleteFramebuffer>;
 using GlRenderbuffer = GlHandle<deleteRenderbuffer>;
 using GlVertexArray = GlHandle<deleteVertexArray>;
 using GlSampler = GlHandle<deleteSampler>;
+using GlQuery = GlHandle<deleteQuery>;
 using GlShader = GlHandle<deleteShader>;
 using GlProgram = GlHandle<deleteProgram>;
 

@@ -19,6 +19,12 @@ GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags) {
     return buffer;
 }
 
+size_t sizeOf(const GlBuffer& buffer) {
+    GLint64 bytes = 0;
+    if (buffer) glGetNamedBufferParameteri64v(buffer.id(), GL_BUFFER_SIZE, &bytes);
+    return static_cast<size_t>(bytes);
+}
+
 GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels) {
     GLuint id = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &id);

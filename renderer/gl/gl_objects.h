@@ -18,6 +18,8 @@ GlBuffer makeBuffer(std::span<const T> values) {
     return makeBuffer(values.data(), values.size_bytes());
 }
 
+size_t sizeOf(const GlBuffer& buffer);  // bytes; 0 where there is none
+
 GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels = 1);
 GlRenderbuffer makeRenderbuffer(GLenum internalFormat, glm::ivec2 sizePx, int samples = 1);
 GlVertexArray makeVertexArray();

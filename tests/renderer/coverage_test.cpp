@@ -35,12 +35,12 @@ protected:
         PiecewiseRenderer renderer(scene, pieces, &replicators, {});
         const FrameTarget target({400, 300}, {}, 1);
         Drawn drawn;
-        for (std::optional<uint64_t> pairs; !pairs; ++drawn.attempts) {
+        for (FrameOutcome outcome{.overflowed = true}; outcome.overflowed; ++drawn.attempts) {
             target.begin({});
             renderer.record(sceneViewOf(scene.scene->defaultCamera, wall.eyeM, *scene.scene));
             glFinish();
-            pairs = renderer.finishFrame();
-            if (pairs) drawn.pairs = *pairs;
+            outcome = renderer.finishFrame();
+            drawn.pairs = outcome.pairCount;
         }
         drawn.frame = target.read();
         drawn.parts = coverage.parts().size();

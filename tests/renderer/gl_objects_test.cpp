@@ -46,12 +46,12 @@ TEST_F(GlObjects, TheEndOfAHandleDeletesItsObject) {
 
 TEST_F(GlObjects, ShaderErrorsNameTheFileAndTheLine) {
     try {
-        makeProgram({{GL_FRAGMENT_SHADER, "resample.frag"}}, {"texelFetch undeclaredFunction"});
+        makeProgram({{GL_FRAGMENT_SHADER, "holes.frag"}}, {"texelFetch undeclaredFunction"});
         FAIL() << "compiled";
     } catch (const std::runtime_error& error) {
         const std::string message = error.what();
-        EXPECT_NE(message.find("shaders/resample.frag"), std::string::npos) << message;
-        EXPECT_NE(message.find(":9("), std::string::npos) << "the line of the call: " << message;
+        EXPECT_NE(message.find("shaders/holes.frag"), std::string::npos) << message;
+        EXPECT_NE(message.find(":6("), std::string::npos) << "the line of the call: " << message;
     }
 }
 

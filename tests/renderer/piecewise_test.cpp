@@ -217,7 +217,8 @@ TEST_F(Piecewise, OnePieceIsOnePlainDraw) {
     const RenderResult result = renderer_.render(request);
     EXPECT_EQ(result.stats.engine, "plain");
     EXPECT_EQ(result.stats.pieces, 1);
-    EXPECT_EQ(result.stats.pairs, result.stats.triangles);
+    // A quarter of the city lies ahead.
+    EXPECT_LT(result.stats.pairs, result.stats.triangles / 2);
     EXPECT_LT(compareColor(result.frame, test::referenceOf(request).frame).shareOff, 0.002);
 }
 

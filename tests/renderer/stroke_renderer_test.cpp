@@ -87,7 +87,7 @@ Frame draw(const Drawing& drawing, const Scene& content) {
         target.draw(drawing.on.wall.background,
                     [&](const FramePass& pass) { renderer.record(view, pass); });
         glFinish();
-        isDone = renderer.finishFrame().has_value();
+        isDone = !renderer.finishFrame().overflowed;
     }
     return target.picture().read();
 }
