@@ -18,10 +18,9 @@ constexpr double kLeastAheadCosine = 0.2588;  // of 75 degrees
 // More than what single precision rounds off places on the plane.
 constexpr double kRoundingSlack = 2e-5;
 
-// Cells smaller than pieces tell more about a small sphere; those of the largest grid take 700 KiB with all
-// levels.
+// Cells smaller than pieces tell more about a small sphere. The largest grid takes 700 KiB with all levels.
 constexpr size_t kCellsPerPiece = 4;
-constexpr unsigned kMostWidth = 256;
+constexpr unsigned kLeastWidth = 32, kMostWidth = 256;
 
 struct Box {
     glm::dvec2 least{std::numeric_limits<double>::infinity()};
@@ -79,7 +78,7 @@ private:
         }
         const auto wished =
             static_cast<unsigned>(std::sqrt(static_cast<double>(kCellsPerPiece * mesh_.pieces.size())));
-        const unsigned width = std::bit_ceil(std::min(wished, kMostWidth));
+        const unsigned width = std::bit_ceil(std::clamp(wished, kLeastWidth, kMostWidth));
         grid_.width = static_cast<int>(width);
         grid_.least = all.least;
         grid_.cellsPerUnit = static_cast<double>(width) / (all.most - all.least);
