@@ -140,7 +140,7 @@ void Coverage::allocate() {
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
                          StageTimer* timer) {
     const ScenePart& part = parts_[index];
-    const bool byGrid = lookup_ == MeshletLookup::grid && pieces.nodeGrid.id() != 0;
+    const bool byGrid = lookup_ == MeshletLookup::grid;
     GlProgram& mark = byGrid ? markByGrid_ : markByTree_;
     bindStorage(0, part.chunk->positions);
     bindStorage(1, part.chunk->corners);

@@ -33,7 +33,7 @@ struct ScenePart {
     void update();
 };
 
-// How the nodes of the piece tree for a meshlet are found. Pieces without a grid are always walked to.
+// How the nodes of the piece tree for a meshlet are found: by a walk, or in a grid.
 enum class MeshletLookup { tree, grid };
 
 // The compute engine: no read-back within a frame. Buffers grow between frames only.

@@ -57,18 +57,24 @@ std::vector<GpuConeNode> gpuNodes(std::span<const ConeNode> tree) {
     return nodes;
 }
 
-// As shaders/grid_lookup.glsl reads it.
-struct GpuGridHeader {
+// As shaders/grid_lookup.glsl reads them.
+struct GpuGridPlane {
     glm::vec4 right, down, ahead;
     glm::vec2 least, cellsPerUnit;
-    glm::ivec4 width;
 };
-static_assert(sizeof(GpuGridHeader) == 80);
+struct GpuGridHeader {
+    std::array<GpuGridPlane, kMostGridPlanes> planes{};
+    int32_t planeCount = 0, width = 0, cellsOfPlane = 0, reserved = 0;
+};
+static_assert(sizeof(GpuGridHeader) == kMostGridPlanes * 64 + 16);
 
 GlBuffer gpuGrid(const NodeGrid& grid) {
     const auto axis = [](glm::dvec3 direction) { return glm::vec4(glm::vec3(direction), 0); };
-    const GpuGridHeader header{axis(grid.right), axis(grid.down),   axis(grid.ahead),
-                               grid.least,       grid.cellsPerUnit, glm::ivec4(grid.width)};
+    GpuGridHeader header{{}, static_cast<int32_t>(grid.planes.size()), grid.width, cellsOfPlane(grid.width)};
+    std::ranges::transform(grid.planes, header.planes.begin(), [&](const GridPlane& plane) {
+        return GpuGridPlane{axis(plane.right), axis(plane.down), axis(plane.ahead), plane.least,
+                            plane.cellsPerUnit};
+    });
     const size_t rangeBytes = grid.ranges.size() * sizeof grid.ranges[0];
     GlBuffer buffer = makeBuffer(nullptr, sizeof header + rangeBytes, GL_DYNAMIC_STORAGE_BIT);
     glNamedBufferSubData(buffer.id(), 0, sizeof header, &header);
@@ -122,8 +128,7 @@ GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     const std::vector<GpuConeNode> nodes = gpuNodes(tree);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
-    if (const std::optional<NodeGrid> grid = buildNodeGrid(mesh, tree, guardPx))
-        gpu.nodeGrid = gpuGrid(*grid);
+    gpu.nodeGrid = gpuGrid(buildNodeGrid(mesh, tree, guardPx));
     gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh, guardPx)));
     return gpu;
 }

@@ -26,7 +26,7 @@ struct GpuPieces {
     GlBuffer pieces;  // three rows of H to clip space, then clipPlanes planes, each a vec4
     uint32_t nodeCount = 0;
     GlBuffer nodes;     // the piece tree
-    GlBuffer nodeGrid;  // see node_grid.h; none where the pieces have no such grid
+    GlBuffer nodeGrid;  // see node_grid.h
     GlBuffer corners;   // six rays a piece with its guard, the last one repeated, each a vec4
 };
 

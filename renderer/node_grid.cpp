@@ -2,155 +2,188 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace curvewall {
 namespace {
 
-constexpr double kLeastAheadCosine = 0.2588;  // of 75 degrees
+// Of 75 degrees: beyond, a plane stretches until its cells mean nothing.
+constexpr double kLeastAheadCosine = 0.2588;
 
-// More than what single precision rounds off places on the plane.
+// More than what single precision rounds off places on a plane.
 constexpr double kRoundingSlack = 2e-5;
 
-// Cells smaller than pieces tell more about a small sphere. The largest grid takes 700 KiB with all levels.
+// Cells smaller than pieces tell more about a small sphere. The largest grid takes 700 KiB a plane.
 constexpr size_t kCellsPerPiece = 4;
 constexpr unsigned kLeastWidth = 32, kMostWidth = 256;
 
-struct Box {
-    glm::dvec2 least{std::numeric_limits<double>::infinity()};
-    glm::dvec2 most{-std::numeric_limits<double>::infinity()};
+using Rays = std::vector<glm::dvec3>;
 
-    void add(glm::dvec2 p) {
-        least = glm::min(least, p);
-        most = glm::max(most, p);
-    }
+void include(NodeRange& range, NodeRange other) {
+    range = {std::min(range.x, other.x), std::max(range.y, other.y)};
+}
+
+GridPlane planeBetween(const GridPlane& axes, glm::dvec2 least, glm::dvec2 most, int width) {
+    GridPlane plane = axes;
+    plane.least = least - kRoundingSlack;
+    plane.cellsPerUnit = static_cast<double>(width) / (most - least + 2 * kRoundingSlack);
+    return plane;
+}
+
+// A leaf's guarded piece in the axes right, down and ahead of a plane.
+struct LeafOnPlane {
+    Rays corners, edges;
 };
 
 class GridBuilder {
 public:
-    GridBuilder(const PieceMesh& mesh, double guardPx) : mesh_(mesh), guardPx_(guardPx) {}
+    GridBuilder(const PieceMesh& mesh, double guardPx) {
+        for (const Piece& piece : mesh.pieces) {
+            corners_.push_back(guardedCorners(mesh, piece, guardPx));
+            for (glm::dvec3& corner : corners_.back()) corner = glm::normalize(corner);
+            edges_.push_back(edgePlanes(mesh, piece, guardPx));
+        }
+    }
 
-    std::optional<NodeGrid> build(std::span<const ConeNode> tree) {
-        if (!findPlane()) return std::nullopt;
-        layCells();
-        for (size_t i = 0; i < tree.size(); ++i)
-            if (tree[i].piece >= 0) addLeaf(static_cast<uint32_t>(i), static_cast<size_t>(tree[i].piece));
-        addCoarserLevels();
+    NodeGrid build(std::span<const ConeNode> tree) {
+        for (const GridPlane& plane : layPlanes()) {
+            std::vector<NodeRange> finest(static_cast<size_t>(grid_.width * grid_.width), kNoNodes);
+            bool isTouched = false;
+            for (size_t i = 0; i < tree.size(); ++i) {
+                if (tree[i].piece < 0) continue;
+                const auto node = static_cast<uint32_t>(i);
+                isTouched |= addLeaf(finest, plane, static_cast<size_t>(tree[i].piece), {node, node + 1});
+            }
+            if (!isTouched) continue;
+            grid_.planes.push_back(plane);
+            addLevels(std::move(finest));
+        }
         return std::move(grid_);
     }
 
 private:
-    bool findPlane() {
-        std::vector<std::vector<glm::dvec3>> rays;
-        glm::dvec3 sum(0);
-        for (const Piece& piece : mesh_.pieces) {
-            std::vector<glm::dvec3>& corners = rays.emplace_back(guardedCorners(mesh_, piece, guardPx_));
-            for (glm::dvec3& corner : corners) sum += corner = glm::normalize(corner);
-        }
-        if (!(glm::length(sum) > 0)) return false;
-        grid_.ahead = glm::normalize(sum);
-        const glm::dvec3 helper = std::abs(grid_.ahead.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-        grid_.right = glm::normalize(glm::cross(grid_.ahead, helper));
-        grid_.down = glm::cross(grid_.ahead, grid_.right);
-        for (const std::vector<glm::dvec3>& corners : rays) {
-            Box& box = boxes_.emplace_back();
+    std::vector<GridPlane> layPlanes() {
+        const GridPlane axes = middleAxes();
+        glm::dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+        bool isNarrow = true;
+        for (const Rays& corners : corners_)
             for (const glm::dvec3& corner : corners) {
-                const double ahead = glm::dot(corner, grid_.ahead);
-                if (!(ahead >= kLeastAheadCosine)) return false;
-                box.add(glm::dvec2(glm::dot(corner, grid_.right), glm::dot(corner, grid_.down)) / ahead);
+                const double ahead = glm::dot(corner, axes.ahead);
+                const glm::dvec2 place(glm::dot(corner, axes.right), glm::dot(corner, axes.down));
+                isNarrow = isNarrow && ahead >= kLeastAheadCosine;
+                least = glm::min(least, place / ahead);
+                most = glm::max(most, place / ahead);
             }
+        grid_.width = widthFor(isNarrow ? 1 : kMostGridPlanes);
+        if (isNarrow) return {planeBetween(axes, least, most, grid_.width)};
+        std::vector<GridPlane> sides;
+        for (const double sign : {1.0, -1.0})
+            for (const GridPlane& side : {GridPlane{axes.right, axes.down, sign * axes.ahead, {}, {}},
+                                          GridPlane{axes.down, axes.ahead, sign * axes.right, {}, {}},
+                                          GridPlane{axes.ahead, axes.right, sign * axes.down, {}, {}}})
+                sides.push_back(planeBetween(side, glm::dvec2(-1), glm::dvec2(1), grid_.width));
+        return sides;
+    }
+
+    GridPlane middleAxes() const {
+        glm::dvec3 sum(0);
+        for (const Rays& corners : corners_)
+            for (const glm::dvec3& corner : corners) sum += corner;
+        GridPlane axes;
+        // All around the eye any direction will do.
+        axes.ahead = glm::length(sum) > 1e-9 ? glm::normalize(sum) : glm::dvec3(0, 0, -1);
+        const glm::dvec3 helper = std::abs(axes.ahead.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+        axes.right = glm::normalize(glm::cross(axes.ahead, helper));
+        axes.down = glm::cross(axes.ahead, axes.right);
+        return axes;
+    }
+
+    int widthFor(size_t planes) const {
+        const double cells = static_cast<double>(kCellsPerPiece * corners_.size() / planes);
+        return static_cast<int>(
+            std::bit_ceil(std::clamp(static_cast<unsigned>(std::sqrt(cells)), kLeastWidth, kMostWidth)));
+    }
+
+    // Whether it lies over any cell.
+    bool addLeaf(std::vector<NodeRange>& finest, const GridPlane& plane, size_t piece, NodeRange node) const {
+        const glm::dmat3 planeFromWall = glm::transpose(glm::dmat3(plane.right, plane.down, plane.ahead));
+        LeafOnPlane leaf;
+        for (const glm::dvec3& corner : corners_[piece]) leaf.corners.push_back(planeFromWall * corner);
+        for (const glm::dvec3& edge : edges_[piece]) leaf.edges.push_back(planeFromWall * edge);
+        return addWithin(finest, plane, leaf, node, 1, {0, 0});
+    }
+
+    // Within a cell of the level that has `width` of them a side.
+    bool addWithin(std::vector<NodeRange>& finest, const GridPlane& plane, const LeafOnPlane& leaf,
+                   NodeRange node, int width, glm::ivec2 cell) const {
+        const glm::dvec2 side = static_cast<double>(grid_.width / width) / plane.cellsPerUnit;
+        const glm::dvec2 least = plane.least + glm::dvec2(cell) * side;
+        if (!mayTouch(leaf, least - kRoundingSlack, least + side + kRoundingSlack)) return false;
+        if (width == grid_.width) {
+            include(finest[static_cast<size_t>(cell.y * width + cell.x)], node);
+            return true;
         }
+        bool isTouched = false;
+        for (const glm::ivec2 child : {glm::ivec2(0, 0), {1, 0}, {0, 1}, {1, 1}})
+            isTouched |= addWithin(finest, plane, leaf, node, 2 * width, 2 * cell + child);
+        return isTouched;
+    }
+
+    // Not where a plane through the eye and a side of either has all of the other behind it.
+    static bool mayTouch(const LeafOnPlane& leaf, glm::dvec2 least, glm::dvec2 most) {
+        for (const glm::dvec3& edge : leaf.edges) {
+            const glm::dvec2 farthest(edge.x > 0 ? most.x : least.x, edge.y > 0 ? most.y : least.y);
+            if (glm::dot(edge, glm::dvec3(farthest, 1)) < 0) return false;
+        }
+        for (const glm::dvec3& side : {glm::dvec3(1, 0, -least.x), glm::dvec3(-1, 0, most.x),
+                                       glm::dvec3(0, 1, -least.y), glm::dvec3(0, -1, most.y)})
+            if (std::ranges::all_of(leaf.corners, [&](glm::dvec3 c) { return glm::dot(side, c) < 0; }))
+                return false;
         return true;
     }
 
-    void layCells() {
-        Box all;
-        for (Box& box : boxes_) {
-            box = {box.least - kRoundingSlack, box.most + kRoundingSlack};
-            all.add(box.least);
-            all.add(box.most);
-        }
-        const auto wished =
-            static_cast<unsigned>(std::sqrt(static_cast<double>(kCellsPerPiece * mesh_.pieces.size())));
-        const unsigned width = std::bit_ceil(std::clamp(wished, kLeastWidth, kMostWidth));
-        grid_.width = static_cast<int>(width);
-        grid_.least = all.least;
-        grid_.cellsPerUnit = static_cast<double>(width) / (all.most - all.least);
-        grid_.ranges.assign(size_t{width} * width, kNoNodes);
-    }
-
-    int cellOf(double place, int axis) const {
-        return std::clamp(static_cast<int>((place - grid_.least[axis]) * grid_.cellsPerUnit[axis]), 0,
-                          grid_.width - 1);
-    }
-
-    void addLeaf(uint32_t node, size_t piece) {
-        const std::vector<glm::dvec3> planes = edgePlanes(mesh_, mesh_.pieces[piece], guardPx_);
-        const Box& box = boxes_[piece];
-        for (int y = cellOf(box.least.y, 1); y <= cellOf(box.most.y, 1); ++y)
-            for (int x = cellOf(box.least.x, 0); x <= cellOf(box.most.x, 0); ++x)
-                if (mayTouch(planes, x, y)) {
-                    NodeRange& range = grid_.ranges[static_cast<size_t>(y * grid_.width + x)];
-                    range = {std::min(range.x, node), std::max(range.y, node + 1)};
-                }
-    }
-
-    // Not where an edge of the piece has the whole cell behind it.
-    bool mayTouch(const std::vector<glm::dvec3>& planes, int x, int y) const {
-        const glm::dvec2 least = grid_.least + glm::dvec2(x, y) / grid_.cellsPerUnit - kRoundingSlack;
-        const glm::dvec2 most = grid_.least + glm::dvec2(x + 1, y + 1) / grid_.cellsPerUnit + kRoundingSlack;
-        return std::ranges::all_of(planes, [&](glm::dvec3 plane) {
-            const glm::dvec2 slope(glm::dot(plane, grid_.right), glm::dot(plane, grid_.down));
-            const glm::dvec2 farthest(slope.x > 0 ? most.x : least.x, slope.y > 0 ? most.y : least.y);
-            return glm::dot(slope, farthest) + glm::dot(plane, grid_.ahead) >= 0;
-        });
-    }
-
-    void addCoarserLevels() {
-        size_t finer = 0;
-        for (size_t width = static_cast<size_t>(grid_.width) / 2; width > 0; width /= 2) {
-            const size_t next = grid_.ranges.size();
-            for (size_t y = 0; y < width; ++y)
-                for (size_t x = 0; x < width; ++x) {
-                    NodeRange range = kNoNodes;
-                    for (const size_t row : {2 * y, 2 * y + 1})
-                        for (const size_t column : {2 * x, 2 * x + 1}) {
-                            const NodeRange& cell = grid_.ranges[finer + row * 2 * width + column];
-                            range = {std::min(range.x, cell.x), std::max(range.y, cell.y)};
-                        }
-                    grid_.ranges.push_back(range);
-                }
-            finer = next;
+    void addLevels(std::vector<NodeRange> level) {
+        grid_.ranges.insert(grid_.ranges.end(), level.begin(), level.end());
+        for (auto width = static_cast<size_t>(grid_.width) / 2; width > 0; width /= 2) {
+            std::vector<NodeRange> coarser(width * width, kNoNodes);
+            for (size_t y = 0; y < 2 * width; ++y)
+                for (size_t x = 0; x < 2 * width; ++x)
+                    include(coarser[y / 2 * width + x / 2], level[y * 2 * width + x]);
+            grid_.ranges.insert(grid_.ranges.end(), coarser.begin(), coarser.end());
+            level = std::move(coarser);
         }
     }
 
-    const PieceMesh& mesh_;
-    double guardPx_;
+    std::vector<Rays> corners_, edges_;  // of each piece; corners of length one
     NodeGrid grid_;
-    std::vector<Box> boxes_;  // of each piece
 };
 
 }  // namespace
 
-std::optional<NodeGrid> buildNodeGrid(const PieceMesh& mesh, std::span<const ConeNode> tree, double guardPx) {
+NodeGrid buildNodeGrid(const PieceMesh& mesh, std::span<const ConeNode> tree, double guardPx) {
     return GridBuilder(mesh, guardPx).build(tree);
 }
 
 NodeRange nodesUnder(const NodeGrid& grid, glm::dvec3 centre, double radius) {
-    const maths::BoxBounds box = maths::sphereBoxBounds(centre, radius, grid.right, grid.down, grid.ahead, 0);
-    const maths::GridCells cells = maths::gridCellsUnder(box, grid.least, grid.cellsPerUnit, grid.width);
     NodeRange touched = kNoNodes;
-    for (int y = cells.first.y; y <= cells.last.y; ++y)
-        for (int x = cells.first.x; x <= cells.last.x; ++x) {
-            const NodeRange& range = grid.ranges[static_cast<size_t>(cells.offset + y * cells.width + x)];
-            touched = {std::min(touched.x, range.x), std::max(touched.y, range.y)};
-        }
+    for (size_t i = 0; i < grid.planes.size(); ++i) {
+        const GridPlane& plane = grid.planes[i];
+        const maths::BoxBounds box =
+            maths::sphereBoxBounds(centre, radius, plane.right, plane.down, plane.ahead, 0);
+        const maths::GridCells cells =
+            maths::gridCellsUnder(box, plane.least, plane.cellsPerUnit, grid.width);
+        const auto first = i * static_cast<size_t>(cellsOfPlane(grid.width));
+        for (int y = cells.first.y; y <= cells.last.y; ++y)
+            for (int x = cells.first.x; x <= cells.last.x; ++x)
+                include(touched,
+                        grid.ranges[first + static_cast<size_t>(cells.offset + y * cells.width + x)]);
+    }
     return touched;
 }
 

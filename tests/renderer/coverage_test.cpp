@@ -61,8 +61,7 @@ TEST_F(CoverageTest, AFrameInPartsIsTheSameFrame) {
     EXPECT_EQ(whole.frame.texels, parted.frame.texels);
 }
 
-// Displays before one plane, whose meshlets can be looked up either way.
-class LookupTest : public test::GlTest {
+class LookupTest : public test::GlTest, public testing::WithParamInterface<std::string> {
 protected:
     void SetUp() override {
         GlTest::SetUp();
@@ -83,14 +82,13 @@ protected:
         return contents;
     }
 
-    const Wall wall_ = test::shippedWall("camera-texture");
-    const PieceMesh mesh_ = fitPieces(wall_.displays[0], 0.25).mesh;
+    const Wall wall_ = test::shippedWall(GetParam());
+    const PieceMesh mesh_ = fitPieces(wall_.displays[0], 1).mesh;
     std::optional<EglContext> context_;
 };
 
-TEST_F(LookupTest, TreeAndGridGiveTheSamePairs) {
+TEST_P(LookupTest, TreeAndGridGiveTheSamePairs) {
     const GpuPieces pieces = uploadPieces(mesh_);
-    ASSERT_NE(pieces.nodeGrid.id(), 0u);
     const GpuScene scene = uploadScene(std::make_shared<const Scene>(loadScene("city:20000")));
     Coverage byTree(scene.chunks, ~0u, MeshletLookup::tree), byGrid(scene.chunks, ~0u, MeshletLookup::grid);
     for (int turn = 0; turn < 6; ++turn) {
@@ -108,10 +106,9 @@ TEST_F(LookupTest, TreeAndGridGiveTheSamePairs) {
     }
 }
 
-TEST_F(LookupTest, GridOnTheGpuHoldsWhatTheExactSphereHas) {
+TEST_P(LookupTest, GridOnTheGpuHoldsWhatTheExactSphereHas) {
     const GpuPieces pieces = uploadPieces(mesh_);
-    const std::optional<NodeGrid> grid = buildNodeGrid(mesh_, buildPieceTree(mesh_));
-    ASSERT_TRUE(grid);
+    const NodeGrid grid = buildNodeGrid(mesh_, buildPieceTree(mesh_));
     const GpuScene scene = uploadScene(std::make_shared<const Scene>(loadScene("city:20000")));
     const SceneChunk& chunk = scene.chunks[0];
     Coverage coverage(scene.chunks);
@@ -125,7 +122,7 @@ TEST_F(LookupTest, GridOnTheGpuHoldsWhatTheExactSphereHas) {
             if (isBehind(meshlet, -view.originFromEyeM)) continue;
             const glm::dvec3 centre = glm::dmat3(view.wallFromScene) *
                                       (glm::dvec3(meshlet.centreM) + glm::dvec3(view.originFromEyeM));
-            const NodeRange exact = nodesUnder(*grid, centre, meshlet.radiusM);
+            const NodeRange exact = nodesUnder(grid, centre, meshlet.radiusM);
             if (exact.x >= exact.y) continue;
             ++seen;
             same += ranges[i] == exact;
@@ -136,6 +133,9 @@ TEST_F(LookupTest, GridOnTheGpuHoldsWhatTheExactSphereHas) {
     EXPECT_GT(seen, 300);
     EXPECT_GT(same, seen * 9 / 10);
 }
+
+INSTANTIATE_TEST_SUITE_P(Displays, LookupTest,
+                         testing::Values("camera-texture", "full-cylinder", "dome-master"));
 
 }  // namespace
 }  // namespace curvewall
