@@ -3,8 +3,6 @@
 // first leaves out, and how many nodes lie in the range of the others. See docs/coverage.md.
 
 #include "calibration/pieces/piece_fit.h"
-#include "calibration/projections/lens_projection.h"
-#include "calibration/projections/sphere_slices_lens.h"
 #include "renderer/coverage.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/stage_timer.h"
@@ -28,21 +26,11 @@ namespace curvewall {
 namespace {
 
 constexpr int kFrames = 12;
-constexpr int kTurns = 8;
-
-// A part of configs/sphere-slices.json that lies before one plane.
-Wall narrowSphereSlices() {
-    Wall wall = test::shippedWall("sphere-slices");
-    constexpr double kFovRad = std::numbers::pi / 2;
-    wall.displays[0].projection = std::make_shared<LensProjection>(
-        std::make_shared<SphereSlicesLens>(kFovRad, kFovRad, wall.displays[0].sizePx), Orientation{});
-    return wall;
-}
+constexpr int kTurns = 5;
 
 const Display& displayNamed(const std::string& name) {
     static std::map<std::string, Wall> walls;
-    if (!walls.contains(name))
-        walls[name] = name == "narrow-sphere-slices" ? narrowSphereSlices() : test::shippedWall(name);
+    if (!walls.contains(name)) walls[name] = test::shippedWall(name);
     return walls[name].displays[0];
 }
 
@@ -135,11 +123,9 @@ void findPairs(benchmark::State& state, const std::string& display, double toler
 }
 
 bool registerAll() {
-    const std::vector<std::pair<std::string, double>> displays{{"camera-texture", 0.5},
-                                                               {"camera-texture", 0.1},
-                                                               {"view-deformation", 0.5},
-                                                               {"narrow-sphere-slices", 0.5},
-                                                               {"sphere-slices", 0.5}};
+    const std::vector<std::pair<std::string, double>> displays{
+        {"camera-texture", 0.5}, {"camera-texture", 0.1}, {"view-deformation", 0.5},
+        {"sphere-slices", 0.5},  {"full-cylinder", 0.25}, {"dome-master", 0.5}};
     std::vector<std::string> scenes{"city:35000", "city:500000"};
     for (const char* file : {"dutch_ship/dutch_ship_medium_1k.gltf", "kenney_city/kenney_city.glb"}) {
         const std::filesystem::path path = test::scenesFolder() / file;

@@ -76,11 +76,12 @@ bool touches(ConeNode leaf, RayTriangle t) {
 
 void take(uint piece, uint nth);  // what the includer does with the nth piece
 
-// Takes every piece that the triangle touches among the nodes from begin up to end, and counts them.
+// Takes every piece that the triangle touches among the nodes from begin up to end, and counts them. It starts at the root:
+// the planes about several pieces leave out a little more than those about each.
 uint walk(RayTriangle t, uint begin, uint end) {
     uint count = 0u;
-    for (uint i = begin; i < end;) {
-        if (isOutside(nodes[i], t)) {
+    for (uint i = 0u; i < end;) {
+        if (nodes[i].link.x <= begin || isOutside(nodes[i], t)) {
             i = nodes[i].link.x;
             continue;
         }
