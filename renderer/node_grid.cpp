@@ -53,7 +53,8 @@ public:
 
     NodeGrid build(std::span<const ConeNode> tree) {
         for (const GridPlane& plane : layPlanes()) {
-            std::vector<NodeRange> finest(static_cast<size_t>(grid_.width * grid_.width), kNoNodes);
+            std::vector<NodeRange> finest(static_cast<size_t>(grid_.width) * static_cast<size_t>(grid_.width),
+                                          kNoNodes);
             bool isTouched = false;
             for (size_t i = 0; i < tree.size(); ++i) {
                 if (tree[i].piece < 0) continue;
@@ -105,9 +106,9 @@ private:
     }
 
     int widthFor(size_t planes) const {
-        const double cells = static_cast<double>(kCellsPerPiece * corners_.size() / planes);
-        return static_cast<int>(
-            std::bit_ceil(std::clamp(static_cast<unsigned>(std::sqrt(cells)), kLeastWidth, kMostWidth)));
+        const size_t cells = kCellsPerPiece * corners_.size() / planes;
+        return static_cast<int>(std::bit_ceil(std::clamp(
+            static_cast<unsigned>(std::sqrt(static_cast<double>(cells))), kLeastWidth, kMostWidth)));
     }
 
     // Whether it lies over any cell.
@@ -122,11 +123,14 @@ private:
     // Within a cell of the level that has `width` of them a side.
     bool addWithin(std::vector<NodeRange>& finest, const GridPlane& plane, const LeafOnPlane& leaf,
                    NodeRange node, int width, glm::ivec2 cell) const {
-        const glm::dvec2 side = static_cast<double>(grid_.width / width) / plane.cellsPerUnit;
+        const glm::dvec2 side =
+            static_cast<double>(grid_.width) / static_cast<double>(width) / plane.cellsPerUnit;
         const glm::dvec2 least = plane.least + glm::dvec2(cell) * side;
         if (!mayTouch(leaf, least - kRoundingSlack, least + side + kRoundingSlack)) return false;
         if (width == grid_.width) {
-            include(finest[static_cast<size_t>(cell.y * width + cell.x)], node);
+            include(finest[static_cast<size_t>(cell.y) * static_cast<size_t>(width) +
+                           static_cast<size_t>(cell.x)],
+                    node);
             return true;
         }
         bool isTouched = false;

@@ -2,7 +2,7 @@
 // many cells a side as the one before, down to a single cell; the box gets the first level of which it needs no more than
 // kGridReach cells a side. Legal GLSL and legal C++ under GLM; C++ includes it through renderer/node_grid.h.
 
-const int kGridReach = 4;
+const int kGridReach = 8;
 
 // From `first` to `last`, a row of the level being `width` cells and its first cell the `offset`th of all. None where
 // last is before first.
