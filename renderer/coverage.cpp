@@ -21,10 +21,10 @@ constexpr uint32_t kMostPartMeshlets = 65'535;
 
 uint32_t groupsFor(uint32_t items) { return (items + kGroupSize - 1) / kGroupSize; }
 
-GlProgram computeProgram(std::string_view file, const std::string& mode) {
-    return makeProgram({{GL_COMPUTE_SHADER, file}},
-                       {mode, "GROUP_SIZE " + std::to_string(kGroupSize),
-                        "PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u"});
+GlProgram computeProgram(std::string_view file, std::vector<std::string> defines) {
+    defines.push_back("GROUP_SIZE " + std::to_string(kGroupSize));
+    defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
+    return makeProgram({{GL_COMPUTE_SHADER, file}}, defines);
 }
 
 constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -67,15 +67,16 @@ void ScenePart::update() {
     }
 }
 
-Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs)
-    : mark_(computeProgram("meshlets.comp", "MARK")),
-      scanMeshlets_(computeProgram("scan.comp", "MESHLETS")),
-      gather_(computeProgram("meshlets.comp", "GATHER")),
-      count_(computeProgram("coverage.comp", "COUNT")),
-      scanPairs_(computeProgram("scan.comp", "PAIRS")),
-      emit_(computeProgram("coverage.comp", "EMIT")),
-      commandsProgram_(computeProgram("draw_commands.comp", "MESHLETS")),
-      mostPairs_(std::min(mostPairs, mostPairsInBuffer())) {
+Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs, MeshletLookup lookup)
+    : mark_(computeProgram("meshlets.comp", {"MARK", lookup == MeshletLookup::grid ? "GRID" : "TREE"})),
+      scanMeshlets_(computeProgram("scan.comp", {"MESHLETS"})),
+      gather_(computeProgram("meshlets.comp", {"GATHER"})),
+      count_(computeProgram("coverage.comp", {"COUNT"})),
+      scanPairs_(computeProgram("scan.comp", {"PAIRS"})),
+      emit_(computeProgram("coverage.comp", {"EMIT"})),
+      commandsProgram_(computeProgram("draw_commands.comp", {"MESHLETS"})),
+      mostPairs_(std::min(mostPairs, mostPairsInBuffer())),
+      lookup_(lookup) {
     for (const SceneChunk& chunk : chunks) {
         const uint32_t mostMeshlets = chunk.changes ? chunk.triangleCount : chunk.meshletCount;
         for (uint32_t first = 0; first < mostMeshlets; first += kMostPartMeshlets)
@@ -129,7 +130,9 @@ void Coverage::allocate() {
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
                          StageTimer* timer) {
     const ScenePart& part = parts_[index];
+    const bool byGrid = lookup_ == MeshletLookup::grid;
     bindForCoverage(*part.chunk, pieces);
+    if (byGrid) bindStorage(2, pieces.nodeGrid);
     bindStorage(3, part.chunk->meshlets);
     bindStorage(5, meshletNodes_);
     bindStorage(6, pairs_);
@@ -149,7 +152,7 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
         glProgramUniform1ui(program->id(), 5, part.meshletCount);
     glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
     setView(mark_.id(), view);
-    glProgramUniform1ui(mark_.id(), 4, pieces.nodeCount);
+    if (!byGrid) glProgramUniform1ui(mark_.id(), 4, pieces.nodeCount);
     for (const GlProgram* program : {&count_, &emit_}) {
         setView(program->id(), view);
         setForCoverage(program->id(), pieces, sampleGrid);
@@ -167,6 +170,7 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
     dispatch(gather_, meshletGroups);
     if (timer) timer->begin("triangles");
+    bindStorage(2, pieces.nodes);
     bindStorage(4, groupPairs_);
     dispatchIndirect(count_);
     dispatch(scanPairs_, 1);

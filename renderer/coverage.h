@@ -29,11 +29,15 @@ struct ScenePart {
     void update();
 };
 
+// How the nodes of the piece tree for a meshlet are found: by a walk, or in a grid.
+enum class MeshletLookup { tree, grid };
+
 // The compute engine: no read-back within a frame. Buffers grow between frames only.
 class Coverage {
 public:
     // The chunks must outlive it. `mostPairs` limits the pairs of a part below what the driver allows.
-    explicit Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u);
+    explicit Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u,
+                      MeshletLookup lookup = MeshletLookup::grid);
 
     const std::vector<ScenePart>& parts() const { return parts_; }
 
@@ -45,6 +49,8 @@ public:
     void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
                    StageTimer* timer = nullptr);
     const GlBuffer& pairs() const { return pairs_; }
+    // Of each meshlet of the part: the first of its nodes and the one after the last.
+    const GlBuffer& meshletNodes() const { return meshletNodes_; }
     const GlBuffer& commands() const { return commands_; }
 
     FrameOutcome finishFrame();
@@ -60,6 +66,7 @@ private:
     GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
     std::vector<ScenePart> parts_;
     uint32_t mostPairs_;
+    MeshletLookup lookup_;
     uint32_t capacity_ = 0;  // pairs
     uint32_t meshletCapacity_ = 0;
     size_t rangeCapacity_ = 0;

@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/pieces/ownership.h"
 #include "calibration/pieces/piece_tree.h"
+#include "renderer/node_grid.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -46,14 +47,39 @@ std::vector<glm::vec4> pieceRows(const PieceMesh& mesh, size_t clipPlanes) {
     return rows;
 }
 
-std::vector<GpuConeNode> gpuNodes(const PieceMesh& mesh, double guardPx) {
+std::vector<GpuConeNode> gpuNodes(std::span<const ConeNode> tree) {
     std::vector<GpuConeNode> nodes;
-    for (const ConeNode& node : buildPieceTree(mesh, guardPx)) {
+    for (const ConeNode& node : tree) {
         GpuConeNode& gpu = nodes.emplace_back();
         for (size_t i = 0; i < kMostPieceEdges; ++i) gpu.planes[i] = glm::vec4(glm::vec3(node.planes[i]), 0);
         gpu.link = {node.next, static_cast<uint32_t>(node.piece), node.planeCount, 0};
     }
     return nodes;
+}
+
+// As shaders/grid_lookup.glsl reads them.
+struct GpuGridPlane {
+    glm::vec4 right, down, ahead;
+    glm::vec2 least, cellsPerUnit;
+};
+struct GpuGridHeader {
+    std::array<GpuGridPlane, kMostGridPlanes> planes{};
+    int32_t planeCount = 0, width = 0, cellsOfPlane = 0, reserved = 0;
+};
+static_assert(sizeof(GpuGridHeader) == kMostGridPlanes * 64 + 16);
+
+GlBuffer gpuGrid(const NodeGrid& grid) {
+    const auto axis = [](glm::dvec3 direction) { return glm::vec4(glm::vec3(direction), 0); };
+    GpuGridHeader header{{}, static_cast<int32_t>(grid.planes.size()), grid.width, cellsOfPlane(grid.width)};
+    std::ranges::transform(grid.planes, header.planes.begin(), [&](const GridPlane& plane) {
+        return GpuGridPlane{axis(plane.right), axis(plane.down), axis(plane.ahead), plane.least,
+                            plane.cellsPerUnit};
+    });
+    const size_t rangeBytes = grid.ranges.size() * sizeof grid.ranges[0];
+    GlBuffer buffer = makeBuffer(nullptr, sizeof header + rangeBytes, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferSubData(buffer.id(), 0, sizeof header, &header);
+    glNamedBufferSubData(buffer.id(), sizeof header, static_cast<GLsizeiptr>(rangeBytes), grid.ranges.data());
+    return buffer;
 }
 
 std::vector<glm::vec4> guardedCornersOfAll(const PieceMesh& mesh, double guardPx) {
@@ -123,9 +149,11 @@ GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     const std::vector<glm::vec4> rows = pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes));
     gpu.firstRows = {glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
     gpu.pieces = makeBuffer(std::span<const glm::vec4>(rows));
-    const std::vector<GpuConeNode> nodes = gpuNodes(mesh, guardPx);
+    const std::vector<ConeNode> tree = buildPieceTree(mesh, guardPx);
+    const std::vector<GpuConeNode> nodes = gpuNodes(tree);
     gpu.nodeCount = static_cast<uint32_t>(nodes.size());
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
+    gpu.nodeGrid = gpuGrid(buildNodeGrid(mesh, tree, guardPx));
     gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh, guardPx)));
     return gpu;
 }

@@ -25,8 +25,9 @@ struct GpuPieces {
     std::array<glm::vec3, 3> firstRows{};  // of the first piece: H to clip space
     GlBuffer pieces;  // three rows of H to clip space, then clipPlanes planes, each a vec4
     uint32_t nodeCount = 0;
-    GlBuffer nodes;    // the piece tree
-    GlBuffer corners;  // six rays a piece with its guard, the last one repeated, each a vec4
+    GlBuffer nodes;     // the piece tree
+    GlBuffer nodeGrid;  // see node_grid.h
+    GlBuffer corners;   // six rays a piece with its guard, the last one repeated, each a vec4
 };
 
 // `guardPx` is how far beyond its edges the tree still finds a piece.

@@ -4,8 +4,8 @@
 
 namespace curvewall {
 
-PairReplicator::PairReplicator(std::span<const SceneChunk> chunks, uint32_t mostPairs)
-    : coverage_(chunks, mostPairs), emptyVertexArray_(makeVertexArray()) {}
+PairReplicator::PairReplicator(std::span<const SceneChunk> chunks, uint32_t mostPairs, MeshletLookup lookup)
+    : coverage_(chunks, mostPairs, lookup), emptyVertexArray_(makeVertexArray()) {}
 
 void PairReplicator::draw(const PieceDraw& draw) {
     coverage_.beginFrame();

@@ -9,7 +9,8 @@ namespace curvewall {
 class PairReplicator : public Replicator {
 public:
     // `mostPairs` limits the pairs of a part below what the driver allows.
-    explicit PairReplicator(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u);
+    explicit PairReplicator(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u,
+                            MeshletLookup lookup = MeshletLookup::grid);
 
     void draw(const PieceDraw& draw) override;
     FrameOutcome finishFrame() override { return coverage_.finishFrame(); }

@@ -1,8 +1,7 @@
 // The coarse level of coverage: which meshlets show something, and which part of the piece tree is theirs. MARK looks at
-// each, scan.comp counts, GATHER lists those that are left, in order.
+// each, scan.comp counts, GATHER lists those that are left, in order. MARK walks the tree, or with GRID looks at a few cells.
 
 #include "scene_geometry.glsl"
-#include "piece_tree.glsl"
 #include "meshlet.glsl"
 #include "meshlet_cone.glsl"
 
@@ -18,30 +17,15 @@ layout(location = 5) uniform uint meshletCount;
 
 #ifdef MARK
 #include "group_prefix.glsl"
+#ifdef GRID
+#include "grid_lookup.glsl"
+#else
+#include "tree_lookup.glsl"
+#endif
 
 bool isSeenFromBehind(Meshlet m, vec3 centre) {
     return m.isSingleSided != 0u &&
            isMeshletBehind(centre, wallFromScene * m.cone.xyz, m.coneSine, m.coneCosine, m.cone.w);
-}
-
-bool isOutside(ConeNode node, vec3 centre, float radius) {
-    for (int i = 0; i < 6; ++i) {
-        if (dot(node.planes[i].xyz, centre) < -radius) return true;
-    }
-    return false;
-}
-
-uvec2 nodesTouched(vec3 centre, float radius) {
-    uvec2 touched = uvec2(nodeCount, 0u);
-    for (uint i = 0u; i < nodeCount;) {
-        if (isOutside(nodes[i], centre, radius)) {
-            i = max(nodes[i].link.x, i + 1u);  // as in walk()
-            continue;
-        }
-        if (nodes[i].link.y != NO_PIECE) touched = uvec2(min(touched.x, i), i + 1u);
-        ++i;
-    }
-    return touched;
 }
 
 void main() {
@@ -51,8 +35,7 @@ void main() {
         Meshlet m = meshlets[firstMeshlet + index];
         vec3 centre = rayTo(m.sphere.xyz);
         uvec2 touched = uvec2(0u);
-        // What the subtraction of the eye rounds off is a share of the distance.
-        if (!isSeenFromBehind(m, centre)) touched = nodesTouched(centre, m.sphere.w + 1e-6 * length(centre));
+        if (!isSeenFromBehind(m, centre)) touched = nodesTouched(centre, m.sphere.w);
         isSeen = touched.x < touched.y;
         meshletNodes[index] = isSeen ? touched : uvec2(0u);
     }
