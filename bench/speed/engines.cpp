@@ -17,6 +17,7 @@ void measureStages(const SpeedOptions& options) {
     const auto city = std::make_shared<const Scene>(makeCity());
     const std::vector<PieceWall> walls{fullCylinder(), cameraTexture(), domeMaster(), planar90()};
     std::vector<RenderRequest> requests;
+    requests.reserve(walls.size());
     for (const PieceWall& wall : walls) requests.push_back(requestFor(wall, city, options.frames));
     Renderer renderer;
     const std::vector<Rounds> rounds = renderInTurns(renderer, requests, options.rounds);

@@ -36,6 +36,7 @@ struct Look {
 // The same picture so many times; a request of several frames would turn the camera.
 void measureStill(Renderer& renderer, const RenderRequest& request, const Row& row, int times) {
     std::vector<RenderStats> all;
+    all.reserve(static_cast<size_t>(times));
     renderer.render(request);
     for (int i = 0; i < times; ++i) all.push_back(renderer.render(request).stats);
     std::ranges::sort(all, {}, &RenderStats::frameMsMedian);

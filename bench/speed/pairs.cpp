@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <string>
 #include <vector>
 
 namespace curvewall {

@@ -20,6 +20,7 @@ namespace {
 double drawnTriangles(const PieceWall& wall, const Scene& scene, int turns) {
     const test::ExactPairCounter counter(scene, wall.pieces->mesh);
     std::vector<double> counts;
+    counts.reserve(static_cast<size_t>(turns));
     for (int turn = 0; turn < turns; ++turn)
         counts.push_back(static_cast<double>(
             counter.count(test::turned(scene.defaultCamera, turn, turns), wall.wall->eyeM).triangles));
@@ -81,6 +82,7 @@ void measureRatios(const SpeedOptions& options) {
         {"planar 2048 ahead", requestFor(squareAhead(), city, frames)},
     };
     std::vector<RenderRequest> requests;
+    requests.reserve(cases.size());
     for (const Case& each : cases) requests.push_back(each.request);
     Renderer renderer;
     const std::vector<Rounds> rounds = renderInTurns(renderer, requests, options.rounds);

@@ -63,6 +63,8 @@ protected:
 
 TEST_F(Replication, OfTheCityIsNearTheSmallest) { expectFewPairs("city", kWalls); }
 
+TEST_F(Replication, OfARoomIsNearTheSmallest) { expectFewPairs("room", kWalls); }
+
 TEST_F(Replication, OfAShipIsNearTheSmallest) {
     expectFewPairsOfSample("dutch_ship/dutch_ship_medium_1k.gltf");
 }
