@@ -1,13 +1,20 @@
-// Exclusive sum over the invocations of a group. One barrier: a tree of sums would need one a step, each of which costs a
-// software renderer more than all these additions.
+// Exclusive sum over the invocations of a group. One of them adds: that costs a software renderer less than a sum of each
+// invocation's own, which reads all values that often, or a tree of sums with a barrier a step.
 
-shared uint groupValues[GROUP_SIZE];
+shared uint groupSums[GROUP_SIZE];
 
 uint groupPrefix(uint value) {
     uint self = gl_LocalInvocationIndex;
-    groupValues[self] = value;
+    groupSums[self] = value;
     barrier();
-    uint sum = 0u;
-    for (uint i = 0u; i < GROUP_SIZE; ++i) sum += i < self ? groupValues[i] : 0u;
-    return sum;
+    if (self == 0u) {
+        uint sum = 0u;
+        for (uint i = 0u; i < GROUP_SIZE; ++i) {
+            uint own = groupSums[i];
+            groupSums[i] = sum;
+            sum += own;
+        }
+    }
+    barrier();
+    return groupSums[self];
 }
