@@ -2,6 +2,7 @@
 
 #include "renderer/meshlets.h"
 #include "renderer/pair_drawing.h"
+#include "renderer/part_splitting.h"
 #include "renderer/piece_coverage.h"
 
 #include <glm/vec4.hpp>
@@ -45,7 +46,7 @@ void dispatchIndirect(const GlProgram& program) {
 
 ScenePart::ScenePart(const SceneChunk& source, uint32_t first, uint32_t most)
     : chunk(&source), firstMeshlet(first), mostMeshlets(most) {
-    const size_t mostRanges = source.changes ? source.triangleCount : source.ranges.size();
+    const size_t mostRanges = std::min<size_t>(source.changes ? most : source.ranges.size(), most);
     rangeBuffer = makeBuffer(nullptr, sizeof(glm::uvec2) * mostRanges, GL_DYNAMIC_STORAGE_BIT);
     ranges.reserve(mostRanges);
     update();
@@ -65,6 +66,12 @@ void ScenePart::update() {
         within.firstMeshlet = span.x;
         within.meshletCount = span.y;
     }
+}
+
+std::pair<ScenePart, ScenePart> ScenePart::halves() const {
+    const uint32_t half = meshletCount / 2;
+    return {ScenePart(*chunk, firstMeshlet, half),
+            ScenePart(*chunk, firstMeshlet + half, mostMeshlets - half)};
 }
 
 Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs, MeshletLookup lookup)
@@ -191,7 +198,7 @@ FrameOutcome Coverage::finishFrame() {
     }
     outcome.overflowed = most > capacity_;
     if (!outcome.overflowed) return outcome;
-    if (most > mostPairs_) splitParts(needed);
+    if (most > mostPairs_) splitParts(parts_, needed, mostPairs_);
     capacity_ = static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs_));
     allocate();
     return outcome;
@@ -202,22 +209,8 @@ size_t Coverage::memoryBytes() const {
     for (const GlBuffer* buffer : {&groupSeen_, &meshletNodes_, &seen_, &placeOf_, &dispatch_, &groupPairs_,
                                    &found_, &pairs_, &commands_, &totalsBuffer_})
         bytes += sizeOf(*buffer);
+    for (const ScenePart& part : parts_) bytes += sizeOf(part.rangeBuffer);
     return bytes;
-}
-
-void Coverage::splitParts(const std::vector<uint32_t>& needed) {
-    std::vector<ScenePart> parts;
-    for (size_t i = 0; i < parts_.size(); ++i) {
-        ScenePart& part = parts_[i];
-        if (needed[i] <= mostPairs_ || part.meshletCount == 1) {
-            parts.push_back(std::move(part));
-        } else {
-            const uint32_t half = part.meshletCount / 2;
-            parts.emplace_back(*part.chunk, part.firstMeshlet, half);
-            parts.emplace_back(*part.chunk, part.firstMeshlet + half, part.mostMeshlets - half);
-        }
-    }
-    parts_ = std::move(parts);
 }
 
 }  // namespace curvewall

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace curvewall {
@@ -27,6 +28,9 @@ struct ScenePart {
 
     // Takes over what the chunk holds now.
     void update();
+
+    bool isSplittable() const { return meshletCount > 1; }
+    std::pair<ScenePart, ScenePart> halves() const;
 };
 
 // How the nodes of the piece tree for a meshlet are found: by a walk, or in a grid.
@@ -58,7 +62,6 @@ public:
     size_t memoryBytes() const;
 
 private:
-    void splitParts(const std::vector<uint32_t>& needed);
     void allocate();
     volatile uint32_t& pairsOf(size_t part) { return totals_[2 * part]; }
     volatile uint32_t& meshletsOf(size_t part) { return totals_[2 * part + 1]; }

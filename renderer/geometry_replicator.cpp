@@ -1,10 +1,12 @@
 #include "renderer/geometry_replicator.h"
 
 #include "renderer/pair_drawing.h"
+#include "renderer/part_splitting.h"
 #include "renderer/piece_coverage.h"
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -54,7 +56,7 @@ void capture(const GlTransformFeedback& target, const GlProgram& program, Record
 
 GeometryReplicator::Part::Part(const SceneChunk& source, uint32_t first, uint32_t count)
     : chunk(&source), firstTriangle(first), triangleCount(count) {
-    const size_t mostRanges = source.changes ? source.triangleCount : source.ranges.size();
+    const size_t mostRanges = std::min<size_t>(source.changes ? count : source.ranges.size(), count);
     rangeBuffer = makeBuffer(nullptr, sizeof(glm::uvec2) * mostRanges, GL_DYNAMIC_STORAGE_BIT);
     ranges.reserve(mostRanges);
     update();
@@ -74,6 +76,11 @@ void GeometryReplicator::Part::update() {
         within.firstTriangle = span.x;
         within.triangleCount = span.y;
     }
+}
+
+std::pair<GeometryReplicator::Part, GeometryReplicator::Part> GeometryReplicator::Part::halves() const {
+    const uint32_t half = triangleCount / 2;
+    return {Part(*chunk, firstTriangle, half), Part(*chunk, firstTriangle + half, triangleCount - half)};
 }
 
 GeometryReplicator::GeometryReplicator(std::span<const SceneChunk> chunks, uint32_t mostPairs)
@@ -211,25 +218,17 @@ FrameOutcome GeometryReplicator::finishFrame() {
     }
     outcome.overflowed = most > capacity_;
     if (!outcome.overflowed) return outcome;
-    if (most > mostPairs_) splitParts(needed);
+    if (most > mostPairs_) splitParts(parts_, needed, mostPairs_);
     capacity_ = static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs_));
     allocate();
     return outcome;
 }
 
-void GeometryReplicator::splitParts(const std::vector<uint64_t>& needed) {
-    std::vector<Part> parts;
-    for (size_t i = 0; i < parts_.size(); ++i) {
-        Part& part = parts_[i];
-        if (needed[i] <= mostPairs_ || part.triangleCount == 1) {
-            parts.push_back(std::move(part));
-        } else {
-            const uint32_t half = part.triangleCount / 2;
-            parts.emplace_back(*part.chunk, part.firstTriangle, half);
-            parts.emplace_back(*part.chunk, part.firstTriangle + half, part.triangleCount - half);
-        }
-    }
-    parts_ = std::move(parts);
+size_t GeometryReplicator::memoryBytes() const {
+    size_t bytes = sizeOf(records_[0]) + sizeOf(records_[1]);
+    for (const GlBuffer* buffer : {&pairs_, &total_, &commands_}) bytes += sizeOf(*buffer);
+    for (const Part& part : parts_) bytes += sizeOf(part.rangeBuffer);
+    return bytes;
 }
 
 }  // namespace curvewall

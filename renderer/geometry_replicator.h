@@ -9,6 +9,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace curvewall {
@@ -20,6 +21,7 @@ public:
 
     void draw(const PieceDraw& draw) override;
     FrameOutcome finishFrame() override;
+    size_t memoryBytes() const override;
 
     // A run of a chunk's triangles that is drawn before the next one.
     struct Part {
@@ -32,6 +34,9 @@ public:
 
         // Takes over what the chunk holds now.
         void update();
+
+        bool isSplittable() const { return triangleCount > 1; }
+        std::pair<Part, Part> halves() const;
     };
     const std::vector<Part>& parts() const { return parts_; }
 
@@ -39,7 +44,6 @@ public:
     const GlBuffer& pairs() const { return pairs_; }
 
 private:
-    void splitParts(const std::vector<uint64_t>& needed);
     void allocate();
     void setPrograms(const PieceDraw& draw) const;
     void findPairs(const Part& part, const PieceDraw& draw);

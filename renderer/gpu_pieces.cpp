@@ -92,7 +92,7 @@ std::vector<glm::vec4> guardedCornersOfAll(const PieceMesh& mesh, double guardPx
     return corners;
 }
 
-constexpr size_t kMostOwnerBytes = size_t{1} << 30;
+constexpr size_t kMostOwnerBytes = size_t{1} << 29;
 
 GpuOwners makeOwners(glm::ivec2 sizePx, int layers) {
     GLuint id = 0;
@@ -174,11 +174,15 @@ GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx) {
 }
 
 GpuOwners uploadSampleOwners(const PieceMesh& mesh, std::span<const glm::dvec2> offsetsPx) {
+    GLint mostLayers = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &mostLayers);
     const auto pixels = static_cast<size_t>(mesh.sizePx.x) * static_cast<size_t>(mesh.sizePx.y);
-    if (offsetsPx.size() * pixels * sizeof(int32_t) > kMostOwnerBytes)
-        throw UsageError("transparent surfaces with " + std::to_string(offsetsPx.size()) +
-                         " samples a pixel need more than the 1 GiB that may go to whose sample is whose; "
-                         "ask for fewer samples");
+    const size_t most =
+        std::min(static_cast<size_t>(mostLayers), kMostOwnerBytes / (pixels * sizeof(int32_t)));
+    if (offsetsPx.size() > most)
+        throw UsageError("with transparent surfaces a display of " + std::to_string(mesh.sizePx.x) + " x " +
+                         std::to_string(mesh.sizePx.y) + " px may have at most " + std::to_string(most) +
+                         " samples a pixel, not " + std::to_string(offsetsPx.size()));
     GpuOwners gpu = makeOwners(mesh.sizePx, static_cast<int>(offsetsPx.size()));
     for (size_t i = 0; i < offsetsPx.size(); ++i)
         fillLayer(gpu, static_cast<int>(i), ownerImage(mesh, offsetsPx[i]), mesh.sizePx);

@@ -16,6 +16,8 @@ namespace {
 constexpr uint32_t kMostChunkVertices = 5'000'000;   // 60 MB of positions
 constexpr uint32_t kMostChunkTriangles = 5'000'000;  // 60 MB of corners
 constexpr uint32_t kUnassigned = ~0u;
+// They are one chunk, whose largest buffer may have 64 bytes for each.
+constexpr size_t kMostBlendedTriangles = 2'000'000;
 
 uint32_t packNormal(glm::vec3 normal) {
     uint32_t bits = 0;
@@ -41,7 +43,8 @@ GpuMeshlet gpuMeshlet(const Meshlet& meshlet, bool isSingleSided) {
 // Collects a chunk's triangles and renumbers their vertices.
 class ChunkBuilder {
 public:
-    explicit ChunkBuilder(const Scene& scene) : scene_(scene), local_(scene.positions.size(), kUnassigned) {}
+    ChunkBuilder(const Scene& scene, TriangleOrder order)
+        : scene_(scene), order_(order), local_(scene.positions.size(), kUnassigned) {}
 
     bool hasRoom() const {
         return vertices_.size() + 3 <= kMostChunkVertices && triangles_.size() < kMostChunkTriangles;
@@ -112,7 +115,8 @@ private:
             const std::vector<glm::uvec3> before(
                 triangles_.begin() + range.firstTriangle,
                 triangles_.begin() + range.firstTriangle + range.triangleCount);
-            const Meshlets cut = cutIntoMeshlets(positions, before);
+            const Meshlets cut = order_ == TriangleOrder::asGiven ? cutInOrder(positions, before)
+                                                                  : cutIntoMeshlets(positions, before);
             for (uint32_t i = 0; i < range.triangleCount; ++i)
                 triangles_[range.firstTriangle + i] = before[cut.order[i]];
             range.firstMeshlet = static_cast<uint32_t>(meshlets.size());
@@ -127,6 +131,7 @@ private:
     }
 
     const Scene& scene_;
+    TriangleOrder order_;
     std::vector<uint32_t> local_;     // scene vertex -> chunk vertex
     std::vector<uint32_t> vertices_;  // chunk vertex -> scene vertex
     std::vector<glm::uvec3> triangles_;
@@ -134,9 +139,9 @@ private:
     std::vector<Meshlet> meshlets_;
 };
 
-std::vector<SceneChunk> uploadChunks(const Scene& scene) {
+std::vector<SceneChunk> uploadChunks(const Scene& scene, TriangleOrder order) {
     std::vector<SceneChunk> chunks;
-    ChunkBuilder builder(scene);
+    ChunkBuilder builder(scene, order);
     for (const MaterialRange& range : scene.ranges) {
         if (scene.materials[range.material].blending != Blending::none) continue;
         for (uint32_t i = 0; i < range.triangleCount; ++i) {
@@ -188,7 +193,7 @@ GlSampler makeSampler(const Texture& texture) {
 }
 
 std::shared_ptr<BlendedTriangles> uploadBlended(const Scene& scene) {
-    ChunkBuilder builder(scene);
+    ChunkBuilder builder(scene, TriangleOrder::asGiven);
     std::vector<BlendedTriangles::Triangle> triangles;
     for (const MaterialRange& range : scene.ranges) {
         const Material& material = scene.materials[range.material];
@@ -202,6 +207,10 @@ std::shared_ptr<BlendedTriangles> uploadBlended(const Scene& scene) {
         }
     }
     if (triangles.empty()) return nullptr;
+    if (triangles.size() > kMostBlendedTriangles)
+        throw UsageError("the scene has " + std::to_string(triangles.size()) +
+                         " triangles that mix with what is behind them, more than the " +
+                         std::to_string(kMostBlendedTriangles) + " that are sorted in every frame");
     return std::make_shared<BlendedTriangles>(builder.uploadVertices(), std::move(triangles));
 }
 
@@ -223,9 +232,9 @@ GlVertexArray vertexArrayOver(const SceneChunk& chunk) {
     return array;
 }
 
-GpuScene uploadScene(ScenePtr scene) {
+GpuScene uploadScene(ScenePtr scene, TriangleOrder order) {
     GpuScene uploaded;
-    uploaded.chunks = uploadChunks(*scene);
+    uploaded.chunks = uploadChunks(*scene, order);
     uploaded.blended = uploadBlended(*scene);
     for (const Texture& texture : scene->textures) {
         uploaded.textures.push_back(uploadTexture(texture));
@@ -262,6 +271,10 @@ size_t memoryBytesOf(const GpuScene& scene) {
     };
     for (const SceneChunk& chunk : scene.chunks) add(chunk);
     if (scene.blended) add(scene.blended->chunk());
+    if (scene.strokes) {
+        for (const SceneChunk& chunk : scene.strokes->gpu.chunks) add(chunk);
+        bytes += scene.strokes->coverage.memoryBytes();
+    }
     for (const Texture& texture : scene.scene->textures)
         for (const MipLevel& level : texture.levels) bytes += sizeof(glm::u8vec4) * level.texels.size();
     return bytes;

@@ -69,9 +69,14 @@ struct GpuScene {
 void setAnisotropy(const GpuScene& scene, int anisotropy);
 
 uint64_t meshletCountOf(const GpuScene& scene);
-size_t memoryBytesOf(const GpuScene& scene);  // textures included, strokes not
+size_t memoryBytesOf(const GpuScene& scene);  // with textures, and what finds the pieces of strokes
 
-// Throws UsageError when a texture is larger than the driver allows.
-GpuScene uploadScene(ScenePtr scene);
+enum class TriangleOrder {
+    byMeshlets,  // within a material, those that lie close together follow each other
+    asGiven,
+};
+
+// Throws UsageError when a texture is larger than the driver allows, or when too many triangles blend.
+GpuScene uploadScene(ScenePtr scene, TriangleOrder order = TriangleOrder::byMeshlets);
 
 }  // namespace curvewall

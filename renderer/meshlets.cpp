@@ -189,26 +189,35 @@ Meshlet boundsOf(const WeldedTriangles& welded, std::span<const uint32_t> triang
     return meshlet;
 }
 
+Meshlets meshletsOf(const WeldedTriangles& welded, const std::vector<std::vector<uint32_t>>& clusters) {
+    Meshlets cut;
+    cut.order.reserve(welded.corners.size() / 3);
+    for (const std::vector<uint32_t>& cluster : clusters) {
+        Meshlet& meshlet = cut.meshlets.emplace_back(boundsOf(welded, cluster));
+        meshlet.firstTriangle = static_cast<uint32_t>(cut.order.size());
+        meshlet.triangleCount = static_cast<uint32_t>(cluster.size());
+        cut.order.insert(cut.order.end(), cluster.begin(), cluster.end());
+    }
+    return cut;
+}
+
 }  // namespace
 
 Meshlets cutIntoMeshlets(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                          uint32_t mostTriangles) {
-    Meshlets cut;
-    if (triangles.empty()) return cut;
+    if (triangles.empty()) return {};
     const WeldedTriangles welded = weld(positions, triangles);
-    const std::vector<std::vector<uint32_t>> clusters = clustersOf(welded, mostTriangles);
-    cut.order.reserve(triangles.size());
-    cut.meshlets.resize(clusters.size());
-    parallelRanges(static_cast<int>(clusters.size()), [&](int begin, int end) {
-        for (auto i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i)
-            cut.meshlets[i] = boundsOf(welded, clusters[i]);
-    });
-    for (size_t i = 0; i < clusters.size(); ++i) {
-        cut.meshlets[i].firstTriangle = static_cast<uint32_t>(cut.order.size());
-        cut.meshlets[i].triangleCount = static_cast<uint32_t>(clusters[i].size());
-        cut.order.insert(cut.order.end(), clusters[i].begin(), clusters[i].end());
+    return meshletsOf(welded, clustersOf(welded, mostTriangles));
+}
+
+Meshlets cutInOrder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                    uint32_t mostTriangles) {
+    std::vector<std::vector<uint32_t>> runs;
+    for (uint32_t i = 0; i < triangles.size(); ++i) {
+        if (i % mostTriangles == 0) runs.emplace_back();
+        runs.back().push_back(i);
     }
-    return cut;
+    return meshletsOf(weld(positions, triangles), runs);
 }
 
 bool isBehind(const Meshlet& meshlet, glm::vec3 eyeM) {

@@ -38,6 +38,10 @@ struct Meshlets {
 Meshlets cutIntoMeshlets(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                          uint32_t mostTriangles = kMeshletTriangles);
 
+// The same without changing the order: so many triangles in a row are a meshlet.
+Meshlets cutInOrder(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                    uint32_t mostTriangles = kMeshletTriangles);
+
 // True only where every triangle of the meshlet is seen from behind.
 bool isBehind(const Meshlet& meshlet, glm::vec3 eyeM);
 

@@ -10,9 +10,10 @@ PairReplicator::PairReplicator(std::span<const SceneChunk> chunks, uint32_t most
 void PairReplicator::draw(const PieceDraw& draw) {
     coverage_.beginFrame();
     for (size_t i = 0; i < coverage_.parts().size(); ++i) {
+        const ScenePart& part = coverage_.parts()[i];
+        if (part.meshletCount == 0) continue;
         coverage_.findPairs(i, draw.pieces, draw.view, sampleGridOf(draw.pieces, draw.pass), &draw.timer);
         draw.timer.begin("surfaces");
-        const ScenePart& part = coverage_.parts()[i];
         glBindVertexArray(emptyVertexArray_.id());
         drawPairs(*part.chunk, part.ranges, coverage_.pairs(), coverage_.commands(), draw);
     }

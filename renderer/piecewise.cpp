@@ -86,6 +86,7 @@ void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
     const MaterialBinder materials{scene_, *programs_};
     const PieceDraw draw{pieces_, view, pass, materials, timer_};
     prepareSurfaces();
+    if (plainDraw_) plainDraw_->beginPass();
     if (replicators_)
         replicators_->opaque->draw(draw);
     else
@@ -140,7 +141,8 @@ void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {
 
 FrameOutcome PiecewiseRenderer::finishFrame() {
     FrameOutcome outcome;
-    if (strokes_) outcome += strokes_->finishFrame();
+    // Pairs and meshlets are those of surfaces.
+    if (strokes_) outcome.overflowed = strokes_->finishFrame().overflowed;
     if (plainDraw_) outcome += plainDraw_->finishFrame();
     if (replicators_) outcome += replicators_->opaque->finishFrame();
     if (replicators_ && replicators_->blended) outcome += replicators_->blended->finishFrame();

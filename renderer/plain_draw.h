@@ -5,7 +5,6 @@
 #include "renderer/triangle_runs.h"
 
 #include <array>
-#include <utility>
 
 namespace curvewall {
 
@@ -17,8 +16,10 @@ public:
     // Leaves out the meshlets that lie beside the picture or are seen from behind.
     void draw(std::span<const SceneChunk> chunks, const PieceDraw& draw);
 
-    // Triangles and meshlets drawn since it was asked last.
-    FrameOutcome finishFrame() { return std::exchange(drawn_, {}); }
+    void beginPass() { drawn_ = {}; }
+
+    // Triangles and meshlets drawn in the last pass.
+    const FrameOutcome& finishFrame() const { return drawn_; }
 
 private:
     bool isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneView& view) const;

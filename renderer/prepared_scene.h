@@ -22,7 +22,7 @@ struct PreparedPieces {
 
 // A renderer with what it refers to.
 struct PreparedDraw {
-    std::shared_ptr<const GpuOwners> sampleOwners;
+    std::shared_ptr<const GpuOwners> sampleOwners;  // large
     PiecewiseRenderer renderer;
 };
 

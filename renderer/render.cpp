@@ -31,6 +31,17 @@ double peakMemoryMib() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+// The loop engine has no end on a fine mesh, and a frame in hand is finished.
+void refuseEndlessLoop(const RenderRequest& request, const GpuPieces& pieces, const SampledTarget& target) {
+    constexpr uint64_t kMostLoopTriangles = 1'000'000'000;
+    const uint64_t drawn =
+        request.scene->triangles.size() * static_cast<uint64_t>(pieces.pieceCount) * target.passCount();
+    if (request.engine == Engine::loop && drawn > kMostLoopTriangles)
+        throw UsageError("the loop engine would draw " + std::to_string(drawn) +
+                         " triangles a frame, more than " + std::to_string(kMostLoopTriangles) +
+                         "; take another engine or a larger tolerance");
+}
+
 double mebibytes(size_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
 
 void describe(const PreparedScene& scene, const ScenePrograms& programs, RenderStats& stats) {
@@ -68,6 +79,25 @@ struct TargetKey {
     bool operator==(const TargetKey&) const = default;
 };
 
+struct FrameTargetKey {
+    glm::ivec2 sizePx;
+    TargetFormat format;
+    bool operator==(const FrameTargetKey&) const = default;
+};
+
+struct BlendedTargetKey {
+    glm::ivec2 sizePx;
+    TargetFormat format;
+    std::shared_ptr<const GpuBlend> maps;
+    bool operator==(const BlendedTargetKey&) const = default;
+};
+
+struct SampledDrawKey {
+    std::shared_ptr<PreparedScene> scene;
+    DrawKey draw;
+    bool operator==(const SampledDrawKey&) const = default;
+};
+
 struct OwnersKey {
     OwnersPtr owners;
     int samples;
@@ -97,10 +127,13 @@ struct Renderer::Impl {
     RecentlyUsed<BlendMapsPtr, const GpuBlend> blends{16};
     RecentlyUsed<PiecesKey, PreparedPieces> pieces{16};
     RecentlyUsed<OwnersPtr, const GpuOwners> owners{16};
-    RecentlyUsed<OwnersKey, const GpuOwners> sampleOwners{4};
+    RecentlyUsed<OwnersKey, const GpuOwners> sampleOwners{2};
     PreparedImages images;
     RecentlyUsed<TargetKey, const SampledTarget> targets{2};  // large
+    RecentlyUsed<FrameTargetKey, const FrameTarget> frameTargets{2};
+    RecentlyUsed<BlendedTargetKey, const BlendedTarget> blendedTargets{2};
     RecentlyUsed<ScenePtr, PreparedScene> scenes;
+    RecentlyUsed<SampledDrawKey, PreparedDraw> sampledDraws{2};
 
     std::shared_ptr<PreparedScene> preparedScene(const ScenePtr& scene) {
         return scenes.get(scene, [&] { return std::make_shared<PreparedScene>(scene); });
@@ -140,43 +173,59 @@ struct Renderer::Impl {
                            [&] { return std::make_shared<const SampledTarget>(sizePx, format, samples); });
     }
 
-    std::shared_ptr<PreparedDraw> preparedDraw(const RenderRequest& request, PreparedScene& scene,
-                                               const std::shared_ptr<PreparedPieces>& prepared,
-                                               const SampledTarget& target, int samples) {
-        return scene.draws.get({prepared, request.engine, request.style, request.output, samples}, [&] {
-            const SceneLook look{request.style, request.output};
-            PieceOwners whose{prepared->owners.get(), nullptr};
-            std::shared_ptr<const GpuOwners> sampled;
-            if (samples > 1 && scene.gpu.blended && prepared->gpu.pieceCount > 1) {
-                sampled = sampleOwners.get({prepared->fitted->owners, samples}, [&] {
-                    return std::make_shared<const GpuOwners>(
-                        uploadSampleOwners(prepared->fitted->mesh, target.sampleOffsetsPx()));
-                });
-                whose.ofSamples = sampled.get();
-            }
-            const GeometryPath path =
-                pathThrough(prepared->gpu, whose, look.output, request.engine, target.samplesAPass());
-            PiecewiseRenderer renderer(programsFor(scene, look, path), scene.gpu, prepared->gpu,
-                                       &scene.replicatorsFor(request.engine), whose);
-            if (scene.gpu.strokes) {
-                if (!prepared->forStrokes)
-                    prepared->forStrokes.emplace(uploadStrokePieces(prepared->fitted->mesh));
-                renderer.addStrokes(std::make_unique<StrokeRenderer>(
-                    strokeProgramsFor(scene, look, path.closesHoles), scene.gpu, *scene.gpu.strokes,
-                    *prepared->forStrokes, whose.ofPixels));
-            }
-            return std::make_shared<PreparedDraw>(PreparedDraw{sampled, std::move(renderer)});
+    // Whose each sample is, where that matters.
+    std::shared_ptr<const GpuOwners> sampleOwnersFor(const PreparedScene& scene,
+                                                     const PreparedPieces& prepared,
+                                                     const SampledTarget& target, int samples) {
+        if (samples == 1 || !scene.gpu.blended || prepared.gpu.pieceCount == 1) return nullptr;
+        return sampleOwners.get({prepared.fitted->owners, samples}, [&] {
+            return std::make_shared<const GpuOwners>(
+                uploadSampleOwners(prepared.fitted->mesh, target.sampleOffsetsPx()));
         });
     }
 
+    std::shared_ptr<PreparedDraw> preparedDraw(const RenderRequest& request,
+                                               const std::shared_ptr<PreparedScene>& scene,
+                                               const std::shared_ptr<PreparedPieces>& prepared,
+                                               const SampledTarget& target, int samples) {
+        const DrawKey key{prepared, request.engine, request.style, request.output, samples};
+        const auto sampled = sampleOwnersFor(*scene, *prepared, target, samples);
+        const auto make = [&] { return makeDraw(request, *scene, *prepared, target, sampled); };
+        // Owners of samples are large: few renderers may hold on to theirs.
+        return sampled ? sampledDraws.get({scene, key}, make) : scene->draws.get(key, make);
+    }
+
+    std::shared_ptr<PreparedDraw> makeDraw(const RenderRequest& request, PreparedScene& scene,
+                                           PreparedPieces& prepared, const SampledTarget& target,
+                                           const std::shared_ptr<const GpuOwners>& sampled) {
+        const SceneLook look{request.style, request.output};
+        const PieceOwners whose{prepared.owners.get(), sampled.get()};
+        const GeometryPath path =
+            pathThrough(prepared.gpu, whose, look.output, request.engine, target.samplesAPass());
+        SceneReplicators* const replicators =
+            prepared.gpu.pieceCount > 1 ? &scene.replicatorsFor(request.engine) : nullptr;
+        PiecewiseRenderer renderer(programsFor(scene, look, path), scene.gpu, prepared.gpu, replicators,
+                                   whose);
+        if (scene.gpu.strokes) {
+            if (!prepared.forStrokes) prepared.forStrokes.emplace(uploadStrokePieces(prepared.fitted->mesh));
+            renderer.addStrokes(
+                std::make_unique<StrokeRenderer>(strokeProgramsFor(scene, look, path.closesHoles), scene.gpu,
+                                                 *scene.gpu.strokes, *prepared.forStrokes, whose.ofPixels));
+        }
+        return std::make_shared<PreparedDraw>(PreparedDraw{sampled, std::move(renderer)});
+    }
+
     // What the frames of a request end in, with the display's maps where it has any.
-    BlendedTarget targetFor(const RenderRequest& request, const Display& display) {
+    std::shared_ptr<const BlendedTarget> targetFor(const RenderRequest& request, const Display& display) {
         std::shared_ptr<const GpuBlend> maps;
         if (display.blend && request.output == OutputKind::color)
             maps = blends.get(display.blend, [&] {
                 return std::make_shared<const GpuBlend>(uploadBlend(*display.blend, display.sizePx));
             });
-        return {display.sizePx, {request.output, request.linearOutput}, std::move(maps)};
+        const TargetFormat format{request.output, request.linearOutput};
+        return blendedTargets.get({display.sizePx, format, maps}, [&] {
+            return std::make_shared<const BlendedTarget>(display.sizePx, format, maps);
+        });
     }
 
     RenderResult piecewise(const RenderRequest& request, const Display& display);
@@ -193,10 +242,12 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const auto prepared = preparedPieces(request, display);
     // Distances, counts and points are those of the pixel's centre: there is no average of them.
     const int samples = request.output == OutputKind::color ? request.samples : 1;
-    const BlendedTarget blended = targetFor(request, display);
+    const auto keptBlended = targetFor(request, display);
+    const BlendedTarget& blended = *keptBlended;
     const auto kept = sampledTarget(display.sizePx, blended.pictureFormat(), samples);
     const SampledTarget& target = *kept;
-    const auto drawn = preparedDraw(request, *scene, prepared, target, samples);
+    refuseEndlessLoop(request, prepared->gpu, target);
+    const auto drawn = preparedDraw(request, scene, prepared, target, samples);
     stats.prepareMs = preparing.ms();
 
     FrameOutcome outcome;
@@ -241,13 +292,17 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
         return std::make_shared<ImageBasedRenderer>(
             programsFor(*scene, {request.style, request.output}, onePiece), scene->gpu, source->gpu);
     });
-    const BlendedTarget blended = targetFor(request, display);
+    const auto keptBlended = targetFor(request, display);
+    const BlendedTarget& blended = *keptBlended;
     const TargetFormat format = blended.pictureFormat();
     const int samples = request.output == OutputKind::color ? request.samples : 1;
     const auto pictures = images.pictures(source->gpu, format, samples);
     const SourceFilter filter = filterFor(request.output, request.filter);
     const auto resampler = images.resampler(filter);
-    const FrameTarget target(display.sizePx, format, 1);
+    const auto keptTarget = frameTargets.get({display.sizePx, format}, [&] {
+        return std::make_shared<const FrameTarget>(display.sizePx, format, 1);
+    });
+    const FrameTarget& target = *keptTarget;
     stats.prepareMs = preparing.ms();
 
     FrameOutcome outcome;

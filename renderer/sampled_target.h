@@ -16,6 +16,7 @@ class SampledTarget {
 public:
     SampledTarget(glm::ivec2 sizePx, TargetFormat format, int samples);
 
+    size_t passCount() const { return passes_.size(); }
     int samplesAPass() const { return passes_.front().samples; }
     // Where the samples of all passes lie, from their pixel's top left corner.
     std::vector<glm::dvec2> sampleOffsetsPx() const;

@@ -22,7 +22,7 @@ struct StageMs {
 
 struct RenderStats {
     std::string method;
-    std::string engine;      // "compute", "plain" (one piece: one plain draw), "cube", "planar", "embree"
+    std::string engine;  // as asked for, or "plain" (one piece: one plain draw), "cube", "planar", "embree"
     double tolerancePx = 0;  // piecewise
     GeometricError geometricError;
     int pieces = 0;

@@ -99,7 +99,8 @@ void setBlending(Blending blending) {
 
 bool hasStrokes(const Scene& scene) { return !scene.points.empty() || !scene.lines.empty(); }
 
-StrokeScene::StrokeScene(const Scene& scene) : gpu(uploadScene(flatTriangles(scene))), coverage(gpu.chunks) {}
+StrokeScene::StrokeScene(const Scene& scene)
+    : gpu(uploadScene(flatTriangles(scene), TriangleOrder::asGiven)), coverage(gpu.chunks) {}
 
 StrokePieces uploadStrokePieces(const PieceMesh& mesh) {
     const std::vector<glm::vec4> records = strokeRecords(mesh);
@@ -132,7 +133,7 @@ StrokeRenderer::StrokeRenderer(std::shared_ptr<const StrokePrograms> programs, c
 StrokePrograms::Variant StrokePrograms::variantFor(const Material& material) const {
     const bool color = look_.output == OutputKind::color;
     const bool masked = material.alphaCutoff >= 0;
-    return {.lit = color && look_.style == Style::textured && !material.unlit,
+    return {.lit = color && look_.style != Style::unlit && !material.unlit,
             .textured = material.texture >= 0 && (color || masked),
             .masked = masked,
             .singleCover = look_.output == OutputKind::coverage || material.blending != Blending::none};

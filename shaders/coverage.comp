@@ -61,10 +61,10 @@ void main() {
     next = groupPairs[gl_WorkGroupID.x] + groupPrefix(most);
     triangleAndFacing = (m.firstTriangle + self) | (ofTriangle.w & SEEN_FROM_BEHIND);
     if (most > KEPT) {
-        // Two programs need not round alike: a piece that this walk misses is drawn as the one before it once more.
+        // Two programs need not round alike: for a piece that this walk misses nothing is drawn.
         uint again = walk(rayTriangleAt(m.firstTriangle + self), meshletNodes[index].x, meshletNodes[index].y,
                           most);
-        for (uint i = again; i < most; ++i) take(ofTriangle.x, i);
+        for (uint i = again; i < most; ++i) take(NO_PIECE, i);
     } else {
         for (uint i = 0u; i < most; ++i) take(ofTriangle[i], i);
     }

@@ -4,7 +4,6 @@ struct ConeNode {
     vec4 planes[6];  // xyz: through the eye, length one; zero beyond the last
     uvec4 link;      // x: the node after this subtree, y: the piece of a leaf or NO_PIECE, z: how many planes
 };
-const uint NO_PIECE = 0xffffffffu;
 
 layout(std430, binding = 2) readonly buffer Nodes { ConeNode nodes[]; };
 layout(location = 4) uniform uint nodeCount;

@@ -30,9 +30,10 @@ const uint loopPiece = 0u;
 void main() {
 #ifdef PAIRS
     uint index = uint(gl_VertexID) / 3u + uint(gl_InstanceID) * PAIRS_PER_INSTANCE;
-    // What the last instance has too much becomes a point, which is not drawn.
-    bool none = index >= commands[command].endPair;
-    uvec2 pair = none ? uvec2(0u) : pairs[index];
+    // What the last instance has too much, and a pair without a piece, becomes a point, which is not drawn.
+    uvec2 pair = index < commands[command].endPair ? pairs[index] : uvec2(0u, NO_PIECE);
+    bool none = pair.y == NO_PIECE;
+    if (none) pair = uvec2(0u);
     sendCorner(pair.x, uint(gl_VertexID) % 3u, pair.y);
     if (none) {
         gl_Position = vec4(0.0, 0.0, 0.5, 1.0);

@@ -3,6 +3,8 @@
 layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
 layout(std430, binding = 1) readonly buffer Corners { uint corners[]; };  // three vertex indices a triangle
 
+const uint NO_PIECE = 0xffffffffu;
+
 layout(location = 0) uniform mat3 wallFromScene;
 layout(location = 1) uniform vec3 originFromEye;  // in scene axes; the difference was taken in double
 

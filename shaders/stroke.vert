@@ -92,7 +92,7 @@ void main() {
 #endif
     uint index = uint(gl_VertexID) / 3u + uint(gl_InstanceID) * PAIRS_PER_INSTANCE;
     // What the last instance has too much, and what is cut away, becomes a point, which is not drawn.
-    if (index >= commands[command].endPair) return;
+    if (index >= commands[command].endPair || pairs[index].y == NO_PIECE) return;
     uvec2 pair = pairs[index];
     uint triangle = pair.x & 0x7fffffffu;
     uint first = corners[3u * triangle], second = corners[3u * triangle + 1u];
