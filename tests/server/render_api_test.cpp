@@ -59,8 +59,8 @@ TEST(RenderApi, EveryFieldIsTaken) {
         "wall": "small", "display": "right", "scene": "model",
         "camera": {"position": [1, -2.5, 3e3], "yaw_deg": 90, "pitch_deg": -45, "roll_deg": 180},
         "eye": [0.5, -1, 2],
-        "method": "image-based", "engine": "compute", "tolerance_px": 0.5, "source": "planar",
-        "filter": "bicubic", "face_size": 64, "samples": 4,
+        "method": "image-based", "engine": "tessellation", "tolerance_px": 0.5, "source": "planar",
+        "filter": "bicubic", "face_size": 64, "samples": 4, "anisotropy": 8,
         "style": "unlit", "output_kind": "position", "format": "exr"})");
     EXPECT_EQ(call.scene, "/scenes/model.glb");
     EXPECT_TRUE(call.cameraGiven);
@@ -77,6 +77,8 @@ TEST(RenderApi, EveryFieldIsTaken) {
     EXPECT_EQ(request.faceSizePx, 64);
     EXPECT_EQ(request.source, SourceKind::planar);
     EXPECT_EQ(request.filter, SourceFilter::bicubic);
+    EXPECT_EQ(request.engine, Engine::tessellation);
+    EXPECT_EQ(request.anisotropy, 8);
     EXPECT_EQ(request.samples, 4);
     EXPECT_EQ(request.style, Style::unlit);
     EXPECT_EQ(request.output, OutputKind::position);
@@ -147,7 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"format", json::array()}}, "format: expected a string, found a list"},
         Mistake{{{"frames", 2}},
                 "expected only the keys wall, scene, display, camera, eye, method, engine, tolerance_px, "
-                "source, filter, face_size, samples, style, output_kind, format, found the key \"frames\""}));
+                "source, filter, face_size, samples, anisotropy, style, output_kind, format, found the key "
+                "\"frames\""}));
 
 class ImpossibleField : public ::testing::TestWithParam<Mistake> {};
 
@@ -174,7 +177,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"eye", {0, 0, 1e8}}}, "eye[2]: expected a number from"},
         Mistake{{{"method", "magic"}},
                 R"(method: expected piecewise, image-based or reference, found "magic")"},
-        Mistake{{{"engine", "geometry"}}, R"(engine: expected compute, found "geometry")"},
+        Mistake{{{"engine", "steam"}},
+                R"(engine: expected compute, geometry, tessellation or loop, found "steam")"},
+        Mistake{{{"anisotropy", 17}}, "anisotropy: expected a whole number from 1 to 16, found 17"},
         Mistake{{{"tolerance_px", 0}}, "tolerance_px: expected a number from 0.001 to 100, found 0"},
         Mistake{{{"tolerance_px", 100.1}}, "tolerance_px: expected"},
         Mistake{{{"tolerance_px", -1}}, "tolerance_px: expected"},
