@@ -46,9 +46,4 @@ FrameOutcome ImageBasedRenderer::finishFrame() {
     return outcome;
 }
 
-std::vector<StageTime> ImageBasedRenderer::takeStageTimes() {
-    for (PiecewiseRenderer& face : faces_) face.takeStageTimes();
-    return timer_.take();
-}
-
 }  // namespace curvewall

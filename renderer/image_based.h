@@ -41,8 +41,9 @@ public:
 
     const ScenePrograms& programs() const { return *programs_; }
 
-    // Of the frames since it was asked last.
-    std::vector<StageTime> takeStageTimes();
+    // Of the frames since it was asked last, where stages are timed.
+    void timeStages(bool on) { timer_.turn(on); }
+    std::vector<StageTime> takeStageTimes() { return timer_.take(); }
 
 private:
     std::shared_ptr<const ScenePrograms> programs_;

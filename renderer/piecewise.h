@@ -61,7 +61,8 @@ public:
 
     const ScenePrograms& programs() const { return *programs_; }
 
-    // Of the frames since it was asked last.
+    // Of the frames since it was asked last, where stages are timed.
+    void timeStages(bool on) { timer_.turn(on); }
     std::vector<StageTime> takeStageTimes() { return timer_.take(); }
 
 private:

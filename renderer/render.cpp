@@ -248,6 +248,7 @@ RenderResult Renderer::Impl::piecewise(const RenderRequest& request, const Displ
     const SampledTarget& target = *kept;
     refuseEndlessLoop(request, prepared->gpu, target);
     const auto drawn = preparedDraw(request, scene, prepared, target, samples);
+    drawn->renderer.timeStages(request.timesStages);
     stats.prepareMs = preparing.ms();
 
     FrameOutcome outcome;
@@ -303,6 +304,7 @@ RenderResult Renderer::Impl::imageBased(const RenderRequest& request, const Disp
         return std::make_shared<const FrameTarget>(display.sizePx, format, 1);
     });
     const FrameTarget& target = *keptTarget;
+    renderer->timeStages(request.timesStages);
     stats.prepareMs = preparing.ms();
 
     FrameOutcome outcome;

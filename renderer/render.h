@@ -42,6 +42,7 @@ struct RenderRequest {
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
     bool linearOutput = false;  // colour at float precision (EXR) rather than 8-bit sRGB
+    bool timesStages = false;   // for RenderStats::stageMs
     int frames = 1;             // frame k turns the camera by 360 k / frames degrees
 };
 

@@ -103,6 +103,7 @@ RenderRequest requestFor(const PieceWall& wall, const ScenePtr& scene, int frame
     request.tolerancePx = wall.tolerancePx;
     request.pieces = wall.pieces;
     request.frames = frames;
+    request.timesStages = true;
     return request;
 }
 

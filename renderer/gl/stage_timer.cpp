@@ -14,6 +14,7 @@ GLuint64 nanosecondsAt(const GlQuery& timestamp) {
 }  // namespace
 
 void StageTimer::begin(std::string_view stage) {
+    if (!isOn_) return;
     if (used_ == marks_.size()) {
         GLuint id = 0;
         glCreateQueries(GL_TIMESTAMP, 1, &id);

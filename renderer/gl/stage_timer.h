@@ -15,6 +15,9 @@ struct StageTime {
 
 class StageTimer {
 public:
+    // Off at first: on llvmpipe the batches that timestamps need make a frame 5 % longer.
+    void turn(bool on) { isOn_ = on; }
+
     // A stage lasts until the next one begins, or the end. Names must be literals. One that begins several
     // times within a frame is summed up.
     void begin(std::string_view stage);
@@ -31,6 +34,7 @@ private:
     };
     std::vector<Mark> marks_;  // they are used again
     size_t used_ = 0;
+    bool isOn_ = false;
 };
 
 }  // namespace curvewall

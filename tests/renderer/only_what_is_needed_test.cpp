@@ -113,6 +113,8 @@ TEST_F(OnlyWhatIsNeeded, MemoryIsThatOfTheBuffers) {
 
 TEST_F(OnlyWhatIsNeeded, StagesAddUpToLessThanTheFrames) {
     RenderRequest request = cityOn(test::fullCylinderWall(kSizePx));
+    EXPECT_TRUE(statsOf(request).stageMs.empty());
+    request.timesStages = true;
     const RenderStats stats = statsOf(request);
     double sumMs = 0;
     std::vector<std::string> names;
