@@ -189,18 +189,16 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
 FrameOutcome Coverage::finishFrame() {
     FrameOutcome outcome;
     std::vector<uint32_t> needed(parts_.size());
-    uint64_t most = 0;
     for (size_t i = 0; i < parts_.size(); ++i) {
         needed[i] = std::exchange(pairsOf(i), 0);
         outcome.pairCount += needed[i];
         outcome.meshletCount += std::exchange(meshletsOf(i), 0);
-        most = std::max<uint64_t>(most, needed[i]);
     }
-    outcome.overflowed = most > capacity_;
-    if (!outcome.overflowed) return outcome;
-    if (most > mostPairs_) splitParts(parts_, needed, mostPairs_);
-    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs_));
-    allocate();
+    if (const auto room = roomFor(parts_, needed, capacity_, mostPairs_)) {
+        outcome.overflowed = true;
+        capacity_ = *room;
+        allocate();
+    }
     return outcome;
 }
 

@@ -211,16 +211,12 @@ FrameOutcome GeometryReplicator::finishFrame() {
         ofPart = std::max(ofPart, counts[i]);
     }
     FrameOutcome outcome;
-    uint64_t most = 0;
-    for (uint64_t ofPart : needed) {
-        outcome.pairCount += ofPart;
-        most = std::max(most, ofPart);
+    for (uint64_t ofPart : needed) outcome.pairCount += ofPart;
+    if (const auto room = roomFor(parts_, needed, capacity_, mostPairs_)) {
+        outcome.overflowed = true;
+        capacity_ = *room;
+        allocate();
     }
-    outcome.overflowed = most > capacity_;
-    if (!outcome.overflowed) return outcome;
-    if (most > mostPairs_) splitParts(parts_, needed, mostPairs_);
-    capacity_ = static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs_));
-    allocate();
     return outcome;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // A part of a scene whose pairs no buffer can hold is drawn as two.
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,6 +31,17 @@ void splitParts(std::vector<Part>& parts, const std::vector<Count>& needed, uint
         }
     }
     parts = std::move(split);
+}
+
+// What a frame asks for: the pairs to have room for from now on, with parts split where no buffer
+// holds theirs. Nothing where all pairs had room.
+template <class Part, class Count>
+std::optional<uint32_t> roomFor(std::vector<Part>& parts, const std::vector<Count>& needed, uint32_t capacity,
+                                uint32_t mostPairs) {
+    const uint64_t most = needed.empty() ? 0 : *std::ranges::max_element(needed);
+    if (most <= capacity) return std::nullopt;
+    if (most > mostPairs) splitParts(parts, needed, mostPairs);
+    return static_cast<uint32_t>(std::min<uint64_t>(most + most / 2, mostPairs));
 }
 
 }  // namespace curvewall

@@ -53,7 +53,8 @@ protected:
 
     static void expectFewPairsOfSample(const std::string& file) {
         const std::filesystem::path path = test::scenesFolder() / file;
-        if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+        if (!std::filesystem::exists(path))
+            GTEST_SKIP() << path << " is not here; set CURVEWALL_SAMPLES to the samples folder";
         expectFewPairs(path.string(), kWalls);
     }
 
