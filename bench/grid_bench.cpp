@@ -3,7 +3,7 @@
 #include "calibration/projections/camera_texture.h"
 #include "calibration/projections/surface_map.h"
 #include "calibration/readers/grid_reader.h"
-#include "calibration/readers/json_file.h"
+#include "calibration/files/json_file.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/temporary_folder.h"
 

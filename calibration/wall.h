@@ -1,6 +1,7 @@
 #pragma once
 // One installation: its eye and its displays.
 
+#include "calibration/assumptions.h"
 #include "calibration/blending/blend.h"
 #include "calibration/projections/projection.h"
 
@@ -17,16 +18,18 @@ namespace curvewall {
 struct Display {
     std::string name;
     glm::ivec2 sizePx{0};
-    std::string projectionType;  // as the wall file writes it: "cylinder", "planar", ...
-    ProjectionPtr projection;    // seen from the wall's eye
-    BlendMapsPtr blend{};        // null where it does nothing; the same for every eye
+    std::string projectionType;             // as the wall file writes it: "cylinder", "planar", ...
+    ProjectionPtr projection;               // seen from the wall's eye
+    BlendMapsPtr blend{};                   // null where it does nothing; the same for every eye
+    std::vector<Assumption> assumptions{};  // what its file leaves open
+    std::vector<std::string> warnings{};    // where its file contradicts itself
 };
 
 struct Wall {
     std::string name;
     glm::dvec3 eyeM{0};       // in wall coordinates
     glm::vec3 background{0};  // linear light; shown where nothing is drawn
-    std::vector<Display> displays;
+    std::vector<Display> displays{};
 };
 
 using WallPtr = std::shared_ptr<const Wall>;

@@ -1,6 +1,6 @@
 #include "cli/blend_mask_files.h"
 
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "renderer/image_file.h"
 
 #include "calibration/errors.h"
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -1,6 +1,6 @@
 #include "server/daemon_config.h"
 
-#include "calibration/readers/json_file.h"
+#include "calibration/files/json_file.h"
 
 #include <boost/asio/ip/address.hpp>
 
@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string readToken(const std::string& path) {
-    std::string token = readText(path, "a file that holds the token");
+    std::string token = readFile(path, "a file that holds the token").bytes;
     const auto isBlank = [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; };
     while (!token.empty() && isBlank(token.back())) token.pop_back();
     return token;

@@ -1,7 +1,7 @@
 #include "server/library.h"
 
 #include "calibration/errors.h"
-#include "calibration/readers/json_fields.h"
+#include "calibration/files/json_fields.h"
 #include "calibration/readers/wall_reader.h"
 #include "renderer/scene/load_scene.h"
 

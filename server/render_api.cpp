@@ -1,7 +1,7 @@
 #include "server/render_api.h"
 
 #include "calibration/errors.h"
-#include "calibration/readers/json_fields.h"
+#include "calibration/files/json_fields.h"
 #include "calibration/readers/projection_fields.h"
 #include "renderer/names.h"
 #include "renderer/request_limits.h"

@@ -2,6 +2,7 @@
 
 #include "calibration/pieces/ownership.h"
 #include "calibration/projections/camera_texture.h"
+#include "calibration/projections/frustum.h"
 #include "tests/support/shipped_walls.h"
 #include "tests/support/test_walls.h"
 
@@ -59,8 +60,9 @@ PieceWall cameraTexture(double tolerancePx) {
     const NodeMeaning offsets{.isOffset = true};
     auto map = std::make_shared<const GridMap>(projectorOffsets(), offsets, kSizePx, Alignment::corners);
     const double across = std::atan(1.0), up = std::atan(0.75);
-    auto projection = std::make_shared<CameraTexture>(std::move(map), BaseImage{-across, across, -up, up, {}},
-                                                      MapDirection::forward);
+    auto base = std::make_shared<FrustumProjection>(Frustum{-across, across, -up, up, {}}, kSizePx);
+    auto projection =
+        std::make_shared<CameraTexture>(std::move(map), std::move(base), MapDirection::forward);
     Wall wall{"camera texture", {}, {}, {{"projector", kSizePx, "camera_texture", std::move(projection)}}};
     return fittedWall("camera texture", std::move(wall), tolerancePx);
 }

@@ -4,7 +4,7 @@
 
 #include "calibration/projections/grid_layout.h"
 #include "calibration/projections/grid_pyramid.h"
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include <glm/vec2.hpp>
 

@@ -5,7 +5,7 @@
 #include "calibration/projections/grid_layout.h"
 #include "calibration/projections/grid_pyramid.h"
 #include "calibration/projections/projection.h"
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 #include "calibration/readers/projection_fields.h"
 
 #include <glm/mat3x3.hpp>

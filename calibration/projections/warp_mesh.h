@@ -30,8 +30,9 @@ struct WarpCell {
 
 // The cells of a grid of vertices, row by row.
 std::vector<WarpCell> quadrilateralsOfGrid(glm::ivec2 vertices);
-// Each cell cut from its first vertex to its last: (0, 0), (1, 0), (1, 1) and (0, 0), (1, 1), (0, 1).
-std::vector<WarpCell> trianglesOfGrid(glm::ivec2 vertices);
+// Each cell in two: cut from its first vertex to its last, or across between the two others.
+enum class CellCut { firstToLast, across };
+std::vector<WarpCell> trianglesOfGrid(glm::ivec2 vertices, CellCut cut = CellCut::firstToLast);
 
 class WarpMesh {
 public:

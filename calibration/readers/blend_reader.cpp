@@ -1,8 +1,8 @@
 #include "calibration/readers/blend_reader.h"
 
 #include "calibration/errors.h"
+#include "calibration/files/map_file.h"
 #include "calibration/parallel.h"
-#include "calibration/readers/map_file.h"
 #include "calibration/readers/projection_fields.h"
 
 #include <glm/exponential.hpp>

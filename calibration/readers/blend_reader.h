@@ -2,7 +2,7 @@
 // The `blend` object of a display: maps and the gamma that they are stored with.
 
 #include "calibration/blending/blend.h"
-#include "calibration/readers/json_fields.h"
+#include "calibration/files/json_fields.h"
 
 #include <glm/vec2.hpp>
 

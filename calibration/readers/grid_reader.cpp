@@ -1,9 +1,10 @@
 #include "calibration/readers/grid_reader.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/mesh_calibration.h"
 #include "calibration/projections/camera_texture.h"
+#include "calibration/projections/frustum.h"
 #include "calibration/projections/surface_map.h"
-#include "calibration/projections/warp_mesh.h"
 #include "calibration/readers/projection_fields.h"
 #include "calibration/readers/warp_mesh_file.h"
 
@@ -20,7 +21,6 @@
 namespace curvewall {
 namespace {
 
-constexpr Range kHalfAngleDeg{-89, 89};
 constexpr Range kScale{-1e6, 1e6};
 
 struct Choice {
@@ -71,22 +71,12 @@ void refuseEmpty(const Map& map, const std::string& path) {
                          "one that collapses everywhere: no cell with valid corners has an area");
 }
 
-BaseImage readBaseImage(JsonFields& fields) {
-    const Pose pose = readPose(fields);
-    if (pose.centerM != glm::dvec3(0))
-        throw FieldError(FieldError::Kind::value, fields.nameOf("center"),
-                         "[0, 0, 0], since a base image is at infinity", describe(pose.centerM));
+Frustum readBaseImage(JsonFields& fields) {
+    const Orientation orientation = readOrientationAtInfinity(fields);
     JsonFields angles = fields.required("base", fields.object("base"));
-    const auto angleRad = [&](const char* key) {
-        return glm::radians(requiredNumber(angles, key, kHalfAngleDeg));
-    };
-    const BaseImage base{angleRad("left_deg"), angleRad("right_deg"), angleRad("down_deg"),
-                         angleRad("up_deg"), pose.orientation};
+    Frustum base = readFrustumAngles(angles);
+    base.orientation = orientation;
     angles.refuseUnknownKeys();
-    if (!(base.leftRad < base.rightRad && base.downRad < base.upRad))
-        throw FieldError(FieldError::Kind::value, fields.nameOf("base"),
-                         "left_deg below right_deg and down_deg below up_deg",
-                         "an image without area, or mirrored");
     return base;
 }
 
@@ -147,22 +137,16 @@ ScreenUnits readScreenUnits(JsonFields& fields, glm::dvec2 sizePx) {
     }
 }
 
-std::vector<WarpVertex> warpVertices(const MeshFile& mesh, const ScreenUnits& units, glm::dvec2 sourceSizePx,
-                                     bool sourceFromBottom) {
-    std::vector<WarpVertex> vertices;
-    for (const auto& vertex : mesh.vertices) {
-        WarpVertex warped;
-        warped.isValid = vertex && vertex->intensity >= 0 && vertex->source.x >= 0 && vertex->source.x <= 1 &&
-                         vertex->source.y >= 0 && vertex->source.y <= 1 &&
-                         glm::all(glm::lessThanEqual(glm::abs(units.gain * vertex->screen + units.bias),
-                                                     glm::dvec2(kFarthestPx)));
-        if (warped.isValid) {
-            const double v = sourceFromBottom ? 1 - vertex->source.y : vertex->source.y;
-            warped.screenPx = units.gain * vertex->screen + units.bias;
-            warped.sourcePx = glm::dvec2(vertex->source.x, v) * sourceSizePx;
-            warped.intensity = vertex->intensity;
-        }
-        vertices.push_back(warped);
+std::vector<std::optional<MeshVertex>> meshVertices(const MeshFile& file, const ScreenUnits& units,
+                                                    glm::dvec2 sizePx, bool sourceFromBottom) {
+    std::vector<std::optional<MeshVertex>> vertices;
+    for (const auto& vertex : file.vertices) {
+        vertices.emplace_back();
+        if (!vertex || vertex->intensity < 0 || !isWithinPicture(vertex->source)) continue;
+        vertices.back() = {
+            (units.gain * vertex->screen + units.bias) / sizePx,
+            sourceFromBottom ? glm::dvec2(vertex->source.x, 1 - vertex->source.y) : vertex->source,
+            vertex->intensity};
     }
     return vertices;
 }
@@ -178,12 +162,7 @@ std::vector<WarpCell> warpCells(JsonFields& fields, const MeshFile& mesh) {
     return cells;
 }
 
-struct WarpSource {
-    glm::ivec2 sizePx;
-    ProjectionPtr projection;
-};
-
-WarpSource readSource(JsonFields& fields, const ProjectionContext& context) {
+SourcePicture readSource(JsonFields& fields, const ProjectionContext& context) {
     JsonFields source = fields.required("source", fields.object("source"));
     const auto size = source.required("size", source.wholeNumbers("size", 2, 1, kMostPx));
     const glm::ivec2 sizePx(static_cast<int>(size[0]), static_cast<int>(size[1]));
@@ -201,7 +180,7 @@ WarpSource readSource(JsonFields& fields, const ProjectionContext& context) {
 }  // namespace
 
 ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& context) {
-    const BaseImage base = readBaseImage(fields);
+    const Frustum base = readBaseImage(fields);
     const bool forward = requiredMeaning(fields, "direction",
                                          {{"forward", "where positions of the base image land"},
                                           {"inverse", "which of them pixels show"}}) == 0;
@@ -211,7 +190,8 @@ ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& con
     const NodeMeaning meaning = readMeaning(fields, context.sizePx, numbers.isInteger);
     auto map = std::make_shared<const GridMap>(std::move(numbers), meaning, context.sizePx, alignment);
     refuseEmpty(*map, path);
-    return std::make_shared<CameraTexture>(std::move(map), base,
+    return std::make_shared<CameraTexture>(std::move(map),
+                                           std::make_shared<FrustumProjection>(base, context.sizePx),
                                            forward ? MapDirection::forward : MapDirection::inverse);
 }
 
@@ -235,17 +215,13 @@ ReadProjection readWarpMesh(JsonFields& fields, const ProjectionContext& context
         requiredMeaning(fields, "source_origin",
                         {{"top_left", "v grows downwards"}, {"bottom_left", "v grows upwards"}}) == 1;
     const double gamma = fields.number("intensity_gamma", {0, 10, true}).value_or(2.2);
-    const WarpSource source = readSource(fields, context);
+    const SourcePicture source = readSource(fields, context);
     const std::string path = requiredPath(fields, "mesh", context);
     const MeshFile file = readMeshFile(path);
-    const double extentPx = std::max({context.sizePx.x, context.sizePx.y, source.sizePx.x, source.sizePx.y});
-    auto mesh = std::make_shared<const WarpMesh>(warpVertices(file, units, source.sizePx, sourceFromBottom),
-                                                 warpCells(fields, file), extentPx);
-    if (!mesh->hasArea())
-        throw InputError(path, "", "a mesh that covers an area",
-                         "no cell with valid vertices that has one on the screen and in the source");
-    std::vector<float> intensity = linearIntensity(*mesh, context.sizePx, gamma);
-    return {std::make_shared<WarpMeshProjection>(std::move(mesh), source.projection), std::move(intensity)};
+    const MeshCalibration mesh{meshVertices(file, units, context.sizePx, sourceFromBottom),
+                               warpCells(fields, file)};
+    MeshDisplay display = meshOnDisplay(mesh, context.sizePx, source, gamma, path);
+    return {std::move(display.projection), std::move(display.intensity)};
 }
 
 }  // namespace curvewall

@@ -1,8 +1,8 @@
 #pragma once
 // Lenses as wall files write them. Each function reads the keys of one type and leaves others to the caller.
 
+#include "calibration/files/json_fields.h"
 #include "calibration/projections/lens.h"
-#include "calibration/readers/json_fields.h"
 
 #include <glm/vec2.hpp>
 

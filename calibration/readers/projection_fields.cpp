@@ -8,7 +8,8 @@ namespace curvewall {
 
 namespace {
 constexpr Range kAngleDeg{-36000, 36000};
-}
+constexpr Range kHalfAngleDeg{-89, 89};
+}  // namespace
 
 std::optional<glm::dvec3> vector3(JsonFields& fields, const char* key, Range range) {
     const auto numbers = fields.numbers(key, 3, range);
@@ -26,6 +27,26 @@ Pose readPose(JsonFields& fields) {
     };
     return {vector3(fields, "center", kAnywhereM).value_or(glm::dvec3(0)),
             {angleRad("yaw_deg"), angleRad("pitch_deg"), angleRad("roll_deg")}};
+}
+
+Orientation readOrientationAtInfinity(JsonFields& fields) {
+    const Pose pose = readPose(fields);
+    if (pose.centerM == glm::dvec3(0)) return pose.orientation;
+    throw FieldError(FieldError::Kind::value, fields.nameOf("center"),
+                     "[0, 0, 0], since what has no surface is at infinity", describe(pose.centerM));
+}
+
+Frustum readFrustumAngles(JsonFields& fields) {
+    const auto angleRad = [&](const char* key) {
+        return glm::radians(requiredNumber(fields, key, kHalfAngleDeg));
+    };
+    const Frustum frustum{
+        angleRad("left_deg"), angleRad("right_deg"), angleRad("down_deg"), angleRad("up_deg"), {}};
+    if (!(frustum.leftRad < frustum.rightRad && frustum.downRad < frustum.upRad))
+        throw FieldError(FieldError::Kind::value, fields.nameOf("left_deg"),
+                         "left_deg below right_deg and down_deg below up_deg",
+                         "an image without area, or mirrored");
+    return frustum;
 }
 
 std::string readChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices) {

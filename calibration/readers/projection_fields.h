@@ -1,8 +1,9 @@
 #pragma once
 // Fields that several types of projection have.
 
+#include "calibration/files/json_fields.h"
+#include "calibration/projections/frustum.h"
 #include "calibration/projections/pose.h"
-#include "calibration/readers/json_fields.h"
 #include "calibration/readers/projection_reader.h"
 
 #include <glm/vec3.hpp>
@@ -29,6 +30,12 @@ double requiredNumber(JsonFields& fields, const char* key, Range range);
 
 // center, yaw_deg, pitch_deg and roll_deg, all optional.
 Pose readPose(JsonFields& fields);
+
+// The same for what is infinitely far and so takes no center.
+Orientation readOrientationAtInfinity(JsonFields& fields);
+
+// left_deg, right_deg, down_deg and up_deg, all needed.
+Frustum readFrustumAngles(JsonFields& fields);
 
 // One of a few words; the first is the default where the key may be absent.
 std::string readChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices);

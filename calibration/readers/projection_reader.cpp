@@ -27,6 +27,12 @@ ProjectionPtr readPlanar(JsonFields& fields, const ProjectionContext& context) {
     return std::make_shared<PlanarProjection>(screen, context.eyeM, context.sizePx);
 }
 
+ProjectionPtr readFrustum(JsonFields& fields, const ProjectionContext& context) {
+    Frustum frustum = readFrustumAngles(fields);
+    frustum.orientation = readOrientationAtInfinity(fields);
+    return std::make_shared<FrustumProjection>(frustum, context.sizePx);
+}
+
 ProjectionPtr readCylinder(JsonFields& fields, const ProjectionContext& context) {
     const Pose pose = readPose(fields);
     const CylinderWall cylinder{requiredNumber(fields, "radius", kLengthM),
@@ -52,12 +58,7 @@ ProjectionPtr readThroughLens(JsonFields& fields, const ProjectionContext& conte
     LensPtr lens = ReadLens(fields, context.sizePx);
     if (const auto dome = readSurface(fields))
         return std::make_shared<DomeProjection>(std::move(lens), pose, *dome, context.eyeM);
-    if (pose.centerM != glm::dvec3(0))
-        throw FieldError(
-            FieldError::Kind::value, fields.nameOf("center"),
-            "no place but the origin without a surface, since the picture is then infinitely far",
-            describe(pose.centerM));
-    return std::make_shared<LensProjection>(std::move(lens), pose.orientation);
+    return std::make_shared<LensProjection>(std::move(lens), readOrientationAtInfinity(fields));
 }
 
 using ReadType = std::function<ReadProjection(JsonFields& fields, const ProjectionContext& context)>;
@@ -69,6 +70,7 @@ const std::map<std::string, ReadType>& readers() {
         {"curvilinear", readThroughLens<readCurvilinearLens>},
         {"cylinder", readCylinder},
         {"equirectangular", readThroughLens<readEquirectangularLens>},
+        {"frustum", readFrustum},
         {"planar", readPlanar},
         {"radial", readThroughLens<readRadialLens>},
         {"sphere_slices", readThroughLens<readSphereSlicesLens>},

@@ -1,8 +1,8 @@
 #pragma once
 // Projections as wall files write them, by the `type` of their object.
 
+#include "calibration/files/json_fields.h"
 #include "calibration/projections/projection.h"
-#include "calibration/readers/json_fields.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -1,8 +1,8 @@
 #include "calibration/readers/wall_reader.h"
 
 #include "calibration/errors.h"
+#include "calibration/files/json_file.h"
 #include "calibration/readers/blend_reader.h"
-#include "calibration/readers/json_file.h"
 #include "calibration/readers/projection_fields.h"
 #include "calibration/readers/projection_reader.h"
 

@@ -1,6 +1,6 @@
 #include "calibration/readers/warp_mesh_file.h"
 
-#include "calibration/readers/json_file.h"
+#include "calibration/files/json_file.h"
 
 #include <utility>
 

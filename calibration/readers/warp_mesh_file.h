@@ -6,6 +6,8 @@
 //
 // The intensity may be absent (1); null is a vertex that was not measured. A grid's vertices come row by row.
 
+#include "calibration/formats/mesh_calibration.h"
+
 #include <glm/vec2.hpp>
 
 #include <array>
@@ -16,16 +18,10 @@
 
 namespace curvewall {
 
-struct MeshVertex {
-    glm::dvec2 screen{0};
-    glm::dvec2 source{0};
-    double intensity = 1;
-};
-
 struct MeshFile {
-    std::optional<glm::ivec2> grid;                  // vertices in x and y, two at least
-    std::vector<std::array<uint32_t, 3>> triangles;  // where there is no grid
-    std::vector<std::optional<MeshVertex>> vertices;
+    std::optional<glm::ivec2> grid;                   // vertices in x and y, two at least
+    std::vector<std::array<uint32_t, 3>> triangles;   // where there is no grid
+    std::vector<std::optional<MeshVertex>> vertices;  // in whatever units whoever names the file says
 };
 
 // Throws InputError.

@@ -1,6 +1,6 @@
 // The program as a shell sees it: exit codes, messages, files.
 
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 #include "renderer/image_file.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/temporary_folder.h"

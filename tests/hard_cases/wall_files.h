@@ -1,7 +1,7 @@
 #pragma once
 // Walls of one display, as their file says it, and the maps that such files name.
 
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 #include "calibration/readers/wall_reader.h"
 #include "tests/support/map_writer.h"
 #include "tests/support/temporary_folder.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Files of numbers as calibrations come in.
 
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include <OpenImageIO/imageio.h>
 

@@ -2,6 +2,7 @@
 
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/projections/camera_texture.h"
+#include "calibration/projections/frustum.h"
 #include "calibration/projections/lens_projection.h"
 #include "calibration/projections/radial_lens.h"
 #include "tests/support/test_walls.h"
@@ -50,7 +51,7 @@ CameraTexture bentCameraTexture(glm::ivec2 sizePx) {
     const double up = std::atan(double(sizePx.y) / sizePx.x);
     return {std::make_shared<GridMap>(std::move(offsets), NodeMeaning{.isOffset = true}, sizePx,
                                       Alignment::corners),
-            {-kPi / 4, kPi / 4, -up, up, {}},
+            std::make_shared<FrustumProjection>(Frustum{-kPi / 4, kPi / 4, -up, up, {}}, sizePx),
             MapDirection::forward};
 }
 

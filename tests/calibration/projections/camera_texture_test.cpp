@@ -1,6 +1,7 @@
 #include "calibration/projections/camera_texture.h"
 
 #include "calibration/errors.h"
+#include "calibration/projections/pose.h"
 #include "calibration/readers/grid_reader.h"
 #include "tests/support/map_writer.h"
 #include "tests/support/random_numbers.h"
@@ -457,7 +458,7 @@ TEST(CameraTexture, ErrorsNameTheFieldAndWhatItMayBe) {
         return keys;
     };
     EXPECT_THAT(complaint(changed("/direction", "back")), HasSubstr("forward (where positions"));
-    EXPECT_THAT(complaint(changed("/center", {0, 0, 1})), HasSubstr("a base image is at infinity"));
+    EXPECT_THAT(complaint(changed("/center", {0, 0, 1})), HasSubstr("what has no surface is at infinity"));
     EXPECT_THAT(complaint(changed("/base/left_deg", 50)), HasSubstr("left_deg below right_deg"));
     EXPECT_THAT(complaint(changed("/base/up_deg", -35)), HasSubstr("down_deg below up_deg"));
     EXPECT_THAT(complaint(changed("/base/up_deg", 90)), HasSubstr("projection.base.up_deg"));

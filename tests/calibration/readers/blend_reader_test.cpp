@@ -1,7 +1,7 @@
 #include "calibration/readers/blend_reader.h"
 
 #include "calibration/errors.h"
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 #include "calibration/readers/wall_reader.h"
 #include "tests/support/temporary_folder.h"
 

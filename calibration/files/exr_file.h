@@ -1,7 +1,7 @@
 #pragma once
 // The EXR files that maps usually come in, read several times faster than OpenImageIO reads them.
 
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include <optional>
 #include <string>

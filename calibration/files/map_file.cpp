@@ -1,8 +1,8 @@
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include "calibration/errors.h"
-#include "calibration/readers/exr_file.h"
-#include "calibration/readers/pfm_file.h"
+#include "calibration/files/exr_file.h"
+#include "calibration/files/pfm_file.h"
 
 #include <OpenImageIO/imageio.h>
 

@@ -1,4 +1,4 @@
-#include "calibration/readers/pfm_file.h"
+#include "calibration/files/pfm_file.h"
 
 #include "calibration/errors.h"
 

@@ -1,4 +1,4 @@
-#include "calibration/readers/json_fields.h"
+#include "calibration/files/json_fields.h"
 
 #include <algorithm>
 #include <cmath>

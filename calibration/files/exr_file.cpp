@@ -1,4 +1,4 @@
-#include "calibration/readers/exr_file.h"
+#include "calibration/files/exr_file.h"
 
 #include <OpenEXR/openexr.h>
 

@@ -1,4 +1,4 @@
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include "calibration/errors.h"
 #include "tests/support/map_writer.h"

@@ -4,7 +4,7 @@
 // The sign of the scale tells the byte order (negative: little endian). Its size is not applied: writers put
 // 1 there, and what unit the numbers have is said by whoever names the file.
 
-#include "calibration/readers/map_file.h"
+#include "calibration/files/map_file.h"
 
 #include <string>
 

@@ -1,0 +1,85 @@
+#include "calibration/formats/calibration_file.h"
+
+#include "calibration/errors.h"
+#include "calibration/formats/mesh_calibration.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+struct Format {
+    const char* name;
+    bool (*isOne)(const FileBytes& file);
+    Wall (*read)(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
+                 Decisions& decisions);
+};
+
+Wall readMeshWall(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
+                  Decisions& decisions) {
+    Wall wall{.name = file.stem(), .eyeM = request.eyeM.value_or(glm::dvec3(0))};
+    wall.displays.push_back(meshDisplay(readMesh(file, find, decisions), file, request, decisions));
+    return wall;
+}
+
+constexpr std::initializer_list<Format> kFormats{
+    {"a warp mesh", isMeshFile, readMeshWall},
+};
+
+// What decides by content comes first.
+const Format& formatOf(const FileBytes& file) {
+    std::string names;
+    for (const Format& format : kFormats) {
+        if (format.isOne(file)) return format;
+        names += (names.empty() ? "" : ", ") + std::string(format.name);
+    }
+    throw InputError(file.path, "", "one of " + names, "a file that begins like none of them");
+}
+
+std::string sizeText(glm::ivec2 sizePx) { return fmt::format("{} x {}", sizePx.x, sizePx.y); }
+
+}  // namespace
+
+Wall readCalibration(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
+                     Decisions& decisions) {
+    Wall wall = formatOf(file).read(file, find, request, decisions);
+    if (!request.display.empty())
+        std::erase_if(wall.displays, [&](const Display& d) { return d.name != request.display; });
+    if (wall.displays.empty())
+        throw InputError(file.path, "", "a display named \"" + request.display + "\"", "none of that name");
+    return wall;
+}
+
+glm::ivec2 decideSize(const CalibrationRequest& request, std::optional<glm::ivec2> fileSizePx,
+                      std::optional<double> aspect, Decisions& decisions) {
+    constexpr int kUsualWidthPx = 1920;
+    constexpr double kUsualAspect = 16.0 / 9.0, kSameAspect = 0.01;
+    if (!aspect && fileSizePx) aspect = static_cast<double>(fileSizePx->x) / fileSizePx->y;
+    if (request.sizePx) {
+        const double shape = static_cast<double>(request.sizePx->x) / request.sizePx->y;
+        if (aspect && std::abs(shape / *aspect - 1) > kSameAspect)
+            decisions.warn(
+                fmt::format("size: {} was asked for, {:.4f} times as wide as high, but the file is made "
+                            "for a display {:.4f} times as wide as high",
+                            sizeText(*request.sizePx), shape, *aspect));
+        return *request.sizePx;
+    }
+    if (fileSizePx) return *fileSizePx;
+    const double shape = aspect.value_or(kUsualAspect);
+    const std::string why =
+        fmt::format("the file names no resolution; {}", aspect ? "its shape does" : "16:9 is usual");
+    const int width = static_cast<int>(decisions.number("width_px", {1, 16384}, kUsualWidthPx, why));
+    const double height = std::clamp(std::round(width / shape), 1.0, 16384.0);
+    return {width, static_cast<int>(decisions.number("height_px", {1, 16384}, height, why))};
+}
+
+void listDecisions(const Decisions& decisions, Display& display) {
+    display.assumptions = decisions.taken();
+    display.warnings = decisions.warnings();
+}
+
+}  // namespace curvewall
