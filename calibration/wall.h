@@ -19,7 +19,7 @@ struct Display {
     std::string name;
     glm::ivec2 sizePx{0};
     std::string projectionType;             // as the wall file writes it: "cylinder", "planar", ...
-    ProjectionPtr projection;               // seen from the wall's eye
+    ProjectionPtr projection{};             // seen from the wall's eye
     BlendMapsPtr blend{};                   // null where it does nothing; the same for every eye
     std::vector<Assumption> assumptions{};  // what its file leaves open
     std::vector<std::string> warnings{};    // where its file contradicts itself
