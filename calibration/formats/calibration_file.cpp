@@ -2,6 +2,8 @@
 
 #include "calibration/errors.h"
 #include "calibration/formats/mesh_calibration.h"
+#include "calibration/formats/mesh_file.h"
+#include "calibration/formats/sgct_file.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +30,7 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 }
 
 constexpr std::initializer_list<Format> kFormats{
+    {"a configuration of SGCT", isSgctFile, readSgctFile},
     {"a warp mesh", isMeshFile, readMeshWall},
 };
 

@@ -45,10 +45,9 @@ public:
         if (!value) return std::nullopt;
         if (!value->is_string()) return *JsonFields(object_, place_).number(key, range);
         const auto number = parseNumber(value->get_ref<const std::string&>());
-        if (!number || !(*number >= range.min && *number <= range.max))
-            throw FieldError(FieldError::Kind::value, placeOf(key),
-                             fmt::format("a number from {} to {}", range.min, range.max), describe(*value));
-        return number;
+        if (!number) throw FieldError(FieldError::Kind::shape, placeOf(key), "a number", describe(*value));
+        const json numbers{{key, *number}};
+        return *JsonFields(numbers, place_).number(key, range);
     }
 
     double number(const char* key, Range range, double byDefault) {
@@ -173,7 +172,7 @@ glm::dmat3 readRotation(SgctFields& parent) {
 
 // The angle of one side: its own key, or half of the whole.
 double sideDeg(SgctFields& fov, const char* side, const char* whole) {
-    constexpr Range kSideDeg{-90, 90}, kWholeDeg{-180, 180};
+    constexpr Range kSideDeg{-90, 90, true, true}, kWholeDeg{-180, 180, true, true};
     const auto both = fov.number(whole, kWholeDeg);
     if (const auto own = fov.number(side, kSideDeg)) return *own;
     if (both) return *both / 2;

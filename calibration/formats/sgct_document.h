@@ -86,6 +86,7 @@ struct SgctWindow {
     std::string place;
     std::string name;
     std::optional<glm::ivec2> sizePx{};  // of the framebuffer
+    std::optional<double> aspect{};      // of the window itself, width over height
     std::string stereo = "none";
     bool isMirroredX = false, isMirroredY = false;
     bool drawsScene = true;
