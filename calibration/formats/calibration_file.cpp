@@ -1,7 +1,9 @@
 #include "calibration/formats/calibration_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
+#include "calibration/formats/mpcdi_file.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +30,8 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 }
 
 constexpr std::initializer_list<Format> kFormats{
+    {"an MPCDI archive or manifest", isMpcdi, readMpcdi},
+    {"a PFM or EXR map", isMapFile, readMapFile},
     {"a warp mesh", isMeshFile, readMeshWall},
 };
 
