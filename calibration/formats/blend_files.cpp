@@ -52,7 +52,7 @@ glm::vec3 filteredAt(const NumberMap& map, glm::dvec2 fraction) {
 
 std::vector<glm::vec3> readBlendPicture(const FileBytes& file, glm::ivec2 sizePx, double gamma,
                                         const std::string& place, Decisions& decisions) {
-    const NumberMap map = readNumberMap(file.path);
+    const NumberMap map = readNumberMap(file);
     if (checkTexels(file.path, map))
         decisions.warn(fmt::format("{}: the alpha channel of {} is not used", place, file.name()));
     if (map.sizePx != sizePx)

@@ -1,8 +1,10 @@
 #include "calibration/formats/calibration_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
 #include "calibration/formats/mesh_file.h"
+#include "calibration/formats/mpcdi_file.h"
 #include "calibration/formats/sgct_file.h"
 
 #include <fmt/format.h>
@@ -31,6 +33,8 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 
 constexpr std::initializer_list<Format> kFormats{
     {"a configuration of SGCT", isSgctFile, readSgctFile},
+    {"an MPCDI archive or manifest", isMpcdi, readMpcdi},
+    {"a PFM or EXR map", isMapFile, readMapFile},
     {"a warp mesh", isMeshFile, readMeshWall},
 };
 

@@ -1,7 +1,9 @@
 #include "calibration/formats/sgct_correction.h"
 
 #include "calibration/errors.h"
+#include "calibration/files/map_file.h"
 #include "calibration/formats/blend_files.h"
+#include "calibration/formats/map_calibration.h"
 #include "calibration/formats/mesh_file.h"
 #include "calibration/projections/picture_views.h"
 
@@ -106,6 +108,37 @@ SgctShown bentByMesh(const SgctContext& context, const FileBytes& file, Decision
     return {meshOnDisplay(mesh, context.sizePx, source, gamma, file.path), "warp_mesh"};
 }
 
+// Maps for both eyes lie side by side; SGCT draws the left one, whichever eye it is for.
+NumberMap leftHalf(const NumberMap& map, const FileBytes& file) {
+    if (map.sizePx.x < 4 || map.sizePx.x % 2 != 0)
+        throw InputError(file.path, "", "maps of two eyes side by side, which have an even number of columns",
+                         fmt::format("{} columns", map.sizePx.x));
+    NumberMap half{{map.sizePx.x / 2, map.sizePx.y}, map.channels, map.isInteger, {}};
+    const auto rowLength = static_cast<ptrdiff_t>(half.sizePx.x) * map.channels;
+    for (int y = 0; y < map.sizePx.y; ++y)
+        half.values.insert(half.values.end(), map.at(0, y), map.at(0, y) + rowLength);
+    return half;
+}
+
+// Whatever PFM says of its rows, SGCT takes the first one of the file for the top, and values grow upwards.
+SgctShown bentByMap(const SgctContext& context, const FileBytes& file, Decisions& decisions) {
+    const auto* planar = std::get_if<SgctPlanar>(&context.viewport.projection);
+    const SgctPicture picture =
+        sgctPicture(context.viewport.projection, {context.sizePx}, context.eye, decisions);
+    const SourcePicture source{context.sizePx, mirroredOf(context, picture.projection)};
+    NumberMap map = readNumberMap(file);
+    MapMeaning meaning{.bottomRowFirst = true, .yUp = true};
+    if (planar && planar->isTextureMapped) {
+        meaning.direction = MapDirection::inverse;
+        meaning.alignment = Alignment::corners;
+    } else {
+        map = leftHalf(map, file);
+        meaning.direction = MapDirection::forward;
+        meaning.cells = decideCells(map.sizePx, CellCut::across, "SGCT draws rows of triangles", decisions);
+    }
+    return {{projectionOfMap(map, meaning, context.sizePx, source, file.path), {}}, "camera_texture"};
+}
+
 // All four meshes as one, which takes from a row of four pictures. Where they overlap SGCT shows what it drew
 // last, and a mesh of ours what it finds first.
 SgctShown mirrorShown(const SgctContext& context, const SgctMirror& mirror, Decisions& decisions) {
@@ -178,7 +211,8 @@ SgctShown sgctShown(const SgctContext& context, Decisions& decisions) {
         return mirrorShown(context, *spherical, decisions);
     if (!viewport.mesh.empty()) {
         const FileBytes file = context.find("mesh", viewport.mesh);
-        return bentByMesh(context, file, decisions);
+        return file.extension() == ".pfm" ? bentByMap(context, file, decisions)
+                                          : bentByMesh(context, file, decisions);
     }
     SgctPicture picture = sgctPicture(viewport.projection, {context.sizePx}, context.eye, decisions);
     return {{mirroredOf(context, std::move(picture.projection)), {}}, picture.type};
