@@ -130,6 +130,8 @@ bool isStereo(const SgctWindow& window) {
 
 std::string nameOfUser(const Part& part) { return part.viewport ? part.viewport->user : std::string(); }
 
+std::string textOf(glm::dvec3 v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
+
 // The eye is the same for all displays of a wall.
 SgctEye decideEye(const SgctDocument& document, const std::vector<Part>& parts,
                   const CalibrationRequest& request, Decisions& decisions) {
@@ -140,8 +142,8 @@ SgctEye decideEye(const SgctDocument& document, const std::vector<Part>& parts,
             decisions.warn(fmt::format("{}.user: \"{}\" is elsewhere; the wall has one eye, that of \"{}\"",
                                        part.place(), other.name, user.name));
     if (request.eyeM && *request.eyeM != user.positionM)
-        decisions.warn("users: the eye " + describe(*request.eyeM) +
-                       " was asked for; the user of the file is at " + describe(user.positionM));
+        decisions.warn(fmt::format("users: the eye {} was asked for; the user of the file is at {}",
+                                   textOf(*request.eyeM), textOf(user.positionM)));
     SgctEye eye{.userM = request.eyeM.value_or(user.positionM)};
     eye.eyeM = eye.userM;
     const bool anyStereo = std::ranges::any_of(parts, [](const Part& part) {
