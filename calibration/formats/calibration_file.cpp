@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
+#include "calibration/formats/mesh_file.h"
 #include "calibration/formats/mpcdi_file.h"
 #include "calibration/formats/vioso_file.h"
 
