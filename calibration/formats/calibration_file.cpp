@@ -1,6 +1,7 @@
 #include "calibration/formats/calibration_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/camera_yaml.h"
 #include "calibration/formats/mesh_calibration.h"
 
 #include <fmt/format.h>
@@ -28,6 +29,7 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 
 constexpr std::initializer_list<Format> kFormats{
     {"a warp mesh", isMeshFile, readMeshWall},
+    {"a camera in YAML", isCameraYaml, readCameraYaml},
 };
 
 // What decides by content comes first.

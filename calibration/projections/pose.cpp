@@ -1,5 +1,7 @@
 #include "calibration/projections/pose.h"
 
+#include <glm/matrix.hpp>
+
 #include <cmath>
 
 namespace curvewall {
@@ -13,6 +15,14 @@ glm::dmat3 rotationFromOrientation(const Orientation& o) {
     const glm::dmat3 pitch(1, 0, 0, 0, cp, sp, 0, -sp, cp);
     const glm::dmat3 roll(cr, -sr, 0, sr, cr, 0, 0, 0, 1);
     return yaw * pitch * roll;
+}
+
+Orientation orientationFromRotation(const glm::dmat3& worldFromView) {
+    const glm::dvec3 ahead = -worldFromView[2];
+    Orientation o{std::atan2(ahead.x, -ahead.z), std::atan2(ahead.y, std::hypot(ahead.x, ahead.z)), 0};
+    const glm::dvec3 up = glm::transpose(rotationFromOrientation(o)) * worldFromView[1];
+    o.rollRad = std::atan2(up.x, up.y);
+    return o;
 }
 
 }  // namespace curvewall

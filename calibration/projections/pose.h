@@ -24,4 +24,7 @@ struct Pose {
 // World from view: Ry(-yaw) Rx(pitch) Rz(-roll).
 glm::dmat3 rotationFromOrientation(const Orientation& orientation);
 
+// Its inverse, for a rotation.
+Orientation orientationFromRotation(const glm::dmat3& worldFromView);
+
 }  // namespace curvewall
