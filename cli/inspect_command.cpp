@@ -5,7 +5,6 @@
 #include "calibration/pieces/piece_drawing.h"
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/pieces/pixel_rays.h"
-#include "calibration/readers/wall_reader.h"
 #include "calibration/stopwatch.h"
 #include "cli/blend_mask_files.h"
 #include "cli/camera_option.h"
@@ -13,6 +12,7 @@
 #include "cli/display_paths.h"
 #include "cli/option_checks.h"
 #include "cli/refit_report.h"
+#include "cli/wall_option.h"
 #include "renderer/image_file.h"
 #include "renderer/render.h"
 
@@ -34,34 +34,49 @@ namespace {
 using nlohmann::json;
 
 struct InspectCommand {
-    std::string wall, display, eye, errorMap, pieces, rays, blend;
+    WallOption wall;
+    std::string display, eye, errorMap, pieces, rays, blend;
     double tolerancePx = kDefaultTolerancePx;
-    bool asJson = false, refit = false, lowerBound = false;
+    bool asJson = false, refit = false, lowerBound = false, readOnly = false;
 };
 
-json reportOf(const Display& display, double tolerancePx, const FittedPieces& fitted) {
-    const Certificate& certificate = fitted.certificate;
+json reportOf(const Display& display) {
+    json assumptions = json::array();
+    for (const Assumption& a : display.assumptions)
+        assumptions.push_back(
+            {{"key", a.key}, {"value", a.value}, {"evidence", a.evidence}, {"given", a.isGiven}});
     return {{"name", display.name},
             {"size", {display.sizePx.x, display.sizePx.y}},
             {"projection", display.projectionType},
-            {"assumptions", json::array()},  // a wall file leaves nothing to assume
-            {"tolerance_px", tolerancePx},
-            {"pieces", fitted.mesh.pieces.size()},
-            {"geometric_error_px",
-             {{"max", certificate.maxPx},
-              {"p99", certificate.p99Px},
-              {"mean", certificate.meanPx},
-              {"max_at", {certificate.maxAt.x, certificate.maxAt.y}}}},
-            {"uncovered_pixels", certificate.uncoveredPixels},
-            {"holes", certificate.holes},
-            {"fit_ms", fitted.fitMs},
-            {"certify_ms", fitted.certifyMs}};
+            {"assumptions", std::move(assumptions)},
+            {"warnings", display.warnings}};
 }
 
-void printReport(const Display& display, double tolerancePx, const FittedPieces& fitted) {
-    const Certificate& c = fitted.certificate;
+void addFit(json& report, double tolerancePx, const FittedPieces& fitted) {
+    const Certificate& certificate = fitted.certificate;
+    report.update({{"tolerance_px", tolerancePx},
+                   {"pieces", fitted.mesh.pieces.size()},
+                   {"geometric_error_px",
+                    {{"max", certificate.maxPx},
+                     {"p99", certificate.p99Px},
+                     {"mean", certificate.meanPx},
+                     {"max_at", {certificate.maxAt.x, certificate.maxAt.y}}}},
+                   {"uncovered_pixels", certificate.uncoveredPixels},
+                   {"holes", certificate.holes},
+                   {"fit_ms", fitted.fitMs},
+                   {"certify_ms", fitted.certifyMs}});
+}
+
+void printReport(const Display& display) {
     fmt::print("{}: {} x {} px, {}\n", display.name, display.sizePx.x, display.sizePx.y,
                display.projectionType);
+    for (const Assumption& a : display.assumptions)
+        fmt::print("  {} {} {} ({})\n", a.isGiven ? "given  " : "assumed", a.key, a.value, a.evidence);
+    for (const std::string& warning : display.warnings) fmt::print("  warning: {}\n", warning);
+}
+
+void printFit(double tolerancePx, const FittedPieces& fitted) {
+    const Certificate& c = fitted.certificate;
     fmt::print("  {} pieces for a tolerance of {} px, fitted in {:.0f} ms, certified in {:.0f} ms\n",
                fitted.mesh.pieces.size(), tolerancePx, fitted.fitMs, fitted.certifyMs);
     fmt::print(
@@ -117,6 +132,10 @@ void run(const InspectCommand& command) {
             "--blend needs the whole wall: a mask depends on the displays around; leave out --display");
     if (command.refit && command.eye.empty())
         throw UsageError("--refit needs --eye: where the eye goes from the wall's own");
+    if (command.readOnly &&
+        (command.refit || command.lowerBound || !command.errorMap.empty() || !command.pieces.empty()))
+        throw UsageError(
+            "--read-only fits no pieces; leave out --refit, --lower-bound, --error-map and --pieces");
     const Stopwatch loading;
     const Wall ownWall = readWall(command.wall);
     const Wall wall = fromEye(ownWall, command);
@@ -131,19 +150,25 @@ void run(const InspectCommand& command) {
         };
         for (const std::string& option : {command.errorMap, command.rays, command.pieces})
             requireFolderOf(path(option));
+        if (command.asJson)
+            report["displays"].push_back(reportOf(*display));
+        else
+            printReport(*display);
+        if (!command.rays.empty()) writeFrame(path(command.rays), rayFrame(*display), OutputKind::position);
+        if (command.readOnly) continue;
         std::optional<FollowedPieces> followed;
         if (command.refit)
             followed = followPieces(findDisplay(ownWall, display->name), *display, command.tolerancePx);
         const FittedPieces fitted =
             followed ? std::move(followed->pieces) : fitPieces(*display, command.tolerancePx);
         if (!command.errorMap.empty()) writeFrame(path(command.errorMap), errorFrame(*display, fitted));
-        if (!command.rays.empty()) writeFrame(path(command.rays), rayFrame(*display), OutputKind::position);
         if (!command.pieces.empty()) writePieces(path(command.pieces), fitted.mesh);
         if (command.asJson) {
-            json& entry = report["displays"].emplace_back(reportOf(*display, command.tolerancePx, fitted));
+            json& entry = report["displays"].back();
+            addFit(entry, command.tolerancePx, fitted);
             if (followed) entry["refit"] = toJson(*followed);
         } else {
-            printReport(*display, command.tolerancePx, fitted);
+            printFit(command.tolerancePx, fitted);
             if (followed) printReport(*followed);
         }
         if (!command.lowerBound) continue;
@@ -155,7 +180,7 @@ void run(const InspectCommand& command) {
             printLowerBound(pieces, bound);
     }
     if (!command.blend.empty()) {
-        const BlendMaskFiles files = writeBlendMasks(wall, command.wall, command.blend);
+        const BlendMaskFiles files = writeBlendMasks(wall, command.wall.path, command.blend);
         if (command.asJson)
             report["blend"] = toJson(files);
         else
@@ -171,7 +196,7 @@ void addInspectCommand(CLI::App& app) {
     CLI::App* inspect = app.add_subcommand("inspect", "Fit the pieces of a wall and certify their error");
     const CLI::Validator exrFile(
         [](std::string& path) { return path.ends_with(".exr") ? "" : "expected an .exr file"; }, "");
-    inspect->add_option("WALL", command->wall, "Wall file")->required();
+    addWallOption(*inspect, command->wall);
     inspect->add_option("--display", command->display, "Display of the wall; all of them without it");
     inspect->add_option("--eye", command->eye,
                         "Where the eye is, x,y,z in wall coordinates, metres; the wall's own without it");
@@ -180,6 +205,9 @@ void addInspectCommand(CLI::App& app) {
     inspect->add_option("--tolerance", command->tolerancePx, "Largest geometric error, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
+    inspect->add_flag(
+        "--read-only", command->readOnly,
+        "Only read the wall: what was assumed of its files and where they contradict themselves");
     inspect->add_flag("--json", command->asJson, "Report as JSON");
     inspect->add_flag("--lower-bound", command->lowerBound,
                       "Also estimate how many pieces any mesh needs at least, which takes seconds");

@@ -1,11 +1,11 @@
 // curvewall render
 
 #include "calibration/errors.h"
-#include "calibration/readers/wall_reader.h"
 #include "cli/camera_option.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"
 #include "cli/option_checks.h"
+#include "cli/wall_option.h"
 #include "renderer/image_file.h"
 #include "renderer/names.h"
 #include "renderer/render.h"
@@ -25,9 +25,10 @@ namespace curvewall {
 namespace {
 
 struct RenderCommand {
-    std::string wall, display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube",
-                                                   filter = "linear", style = "textured",
-                                                   outputKind = "color", out, stats;
+    WallOption wall;
+    std::string display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube",
+                                             filter = "linear", style = "textured", outputKind = "color", out,
+                                             stats;
     double tolerancePx = kDefaultTolerancePx;
     int samples = 1, faceSizePx = 0, frames = 1;
     std::optional<int> anisotropy;
@@ -82,6 +83,7 @@ void report(const Display& display, const RenderStats& stats, const std::string&
 void run(const RenderCommand& command) {
     RenderRequest request = requestOf(command);
     request.wall = std::make_shared<const Wall>(readWall(command.wall));
+    logWarnings(*request.wall);
     const std::vector<const Display*> displays = chosenDisplays(*request.wall, command.display);
     for (const Display* display : displays)
         for (const std::string& path : {command.out, command.stats})
@@ -110,7 +112,7 @@ void addRenderCommand(CLI::App& app) {
     const auto oneOf = [](auto parse, const std::string& names) {
         return CLI::Validator([=](std::string& text) { return parse(text) ? "" : "expected " + names; }, "");
     };
-    render->add_option("WALL", command->wall, "Wall file")->required();
+    addWallOption(*render, command->wall);
     render->add_option("--display", command->display, "Display of the wall; all of them without it");
     render
         ->add_option("--scene", command->scene, "A .gltf, .glb or .obj file, city[:triangles[:seed]] or room")

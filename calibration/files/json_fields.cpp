@@ -203,6 +203,14 @@ std::optional<JsonFields> JsonFields::object(const char* key) {
     return JsonFields(*value, nameOf(key));
 }
 
+std::optional<json> JsonFields::anyObject(const char* key) {
+    const json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_object())
+        throw FieldError(FieldError::Kind::shape, nameOf(key), "an object", describe(*value));
+    return *value;
+}
+
 void JsonFields::refuseUnknownKeys() const {
     for (const auto& [key, value] : object_.items()) {
         if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;

@@ -68,6 +68,7 @@ public:
     std::optional<std::vector<int64_t>> wholeNumbers(const char* key, size_t count, int64_t min, int64_t max);
     std::vector<JsonFields> objects(const char* key);  // a list that must be there, with one entry at least
     std::optional<JsonFields> object(const char* key);
+    std::optional<nlohmann::json> anyObject(const char* key);  // one whose keys are for somebody else to know
     const nlohmann::json& list(const char* key);  // of anything; must be there, with one entry at least
 
     // The same for a key that must be there.

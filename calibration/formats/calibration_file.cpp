@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -32,19 +33,24 @@ constexpr std::initializer_list<Format> kFormats{
     {"a camera in YAML", isCameraYaml, readCameraYaml},
 };
 
-// What decides by content comes first.
+// The first one that claims the file.
+const Format* findFormat(const FileBytes& file) {
+    const auto format = std::ranges::find_if(kFormats, [&](const Format& f) { return f.isOne(file); });
+    return format == kFormats.end() ? nullptr : &*format;
+}
+
 const Format& formatOf(const FileBytes& file) {
-    std::string names;
-    for (const Format& format : kFormats) {
-        if (format.isOne(file)) return format;
-        names += (names.empty() ? "" : ", ") + std::string(format.name);
-    }
+    if (const Format* format = findFormat(file)) return *format;
+    std::string names = "a wall file in JSON";
+    for (const Format& format : kFormats) names += ", " + std::string(format.name);
     throw InputError(file.path, "", "one of " + names, "a file that begins like none of them");
 }
 
 std::string sizeText(glm::ivec2 sizePx) { return fmt::format("{} x {}", sizePx.x, sizePx.y); }
 
 }  // namespace
+
+bool isCalibration(const FileBytes& file) { return findFormat(file) != nullptr; }
 
 Wall readCalibration(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
                      Decisions& decisions) {

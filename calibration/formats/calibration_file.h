@@ -27,11 +27,14 @@ struct SourcePicture {
 
 // What is known of a calibration from outside its file.
 struct CalibrationRequest {
-    std::optional<glm::ivec2> sizePx;     // of the display
-    std::optional<glm::dvec3> eyeM;       // wall coordinates
-    std::optional<SourcePicture> source;  // for files that say nothing of their source
-    std::string display;                  // the only one wanted; all of them when empty
+    std::optional<glm::ivec2> sizePx{};     // of the display
+    std::optional<glm::dvec3> eyeM{};       // wall coordinates
+    std::optional<SourcePicture> source{};  // for files that say nothing of their source
+    std::string display{};                  // the only one wanted; all of them when empty
 };
+
+// Whether a format claims the file, by its content and extension.
+bool isCalibration(const FileBytes& file);
 
 // The wall that a file describes; one display named after the file where it has no names. The assumptions of
 // each display are in it.

@@ -162,21 +162,6 @@ std::vector<WarpCell> warpCells(JsonFields& fields, const MeshFile& mesh) {
     return cells;
 }
 
-SourcePicture readSource(JsonFields& fields, const ProjectionContext& context) {
-    JsonFields source = fields.required("source", fields.object("source"));
-    const auto size = source.required("size", source.wholeNumbers("size", 2, 1, kMostPx));
-    const glm::ivec2 sizePx(static_cast<int>(size[0]), static_cast<int>(size[1]));
-    JsonFields projection = source.required("projection", source.object("projection"));
-    const std::string type = projection.required("type", projection.text("type"));
-    if (type == "warp_mesh")
-        throw FieldError(FieldError::Kind::value, projection.nameOf("type"), "any type but another warp_mesh",
-                         "\"warp_mesh\"");
-    ReadProjection read = readProjection(projection, type, {context.folder, context.eyeM, sizePx});
-    projection.refuseUnknownKeys();
-    source.refuseUnknownKeys();
-    return {sizePx, std::move(read.projection)};
-}
-
 }  // namespace
 
 ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& context) {
@@ -185,7 +170,7 @@ ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& con
                                          {{"forward", "where positions of the base image land"},
                                           {"inverse", "which of them pixels show"}}) == 0;
     const Alignment alignment = readAlignment(fields);
-    const std::string path = requiredPath(fields, "offsets", context);
+    const std::string path = requiredPath(fields, "offsets", context.folder);
     NumberMap numbers = readNodes(path, 2, alignment == Alignment::corners ? 2 : 1);
     const NodeMeaning meaning = readMeaning(fields, context.sizePx, numbers.isInteger);
     auto map = std::make_shared<const GridMap>(std::move(numbers), meaning, context.sizePx, alignment);
@@ -202,7 +187,7 @@ ProjectionPtr readSurfaceMap(JsonFields& fields, const ProjectionContext& contex
     const bool bottomRowFirst =
         requiredMeaning(fields, "origin",
                         {{"top_left", "top row first"}, {"bottom_left", "bottom row first"}}) == 1;
-    const std::string path = requiredPath(fields, "points", context);
+    const std::string path = requiredPath(fields, "points", context.folder);
     auto surface = std::make_shared<const MeasuredSurface>(readNodes(path, 3, 2), bottomRowFirst,
                                                            context.sizePx, alignment);
     refuseEmpty(*surface, path);
@@ -215,13 +200,28 @@ ReadProjection readWarpMesh(JsonFields& fields, const ProjectionContext& context
         requiredMeaning(fields, "source_origin",
                         {{"top_left", "v grows downwards"}, {"bottom_left", "v grows upwards"}}) == 1;
     const double gamma = fields.number("intensity_gamma", {0, 10, true}).value_or(2.2);
-    const SourcePicture source = readSource(fields, context);
-    const std::string path = requiredPath(fields, "mesh", context);
+    JsonFields sourceFields = fields.required("source", fields.object("source"));
+    const SourcePicture source = readSource(sourceFields, context);
+    const std::string path = requiredPath(fields, "mesh", context.folder);
     const MeshFile file = readMeshFile(path);
     const MeshCalibration mesh{meshVertices(file, units, context.sizePx, sourceFromBottom),
                                warpCells(fields, file)};
     MeshDisplay display = meshOnDisplay(mesh, context.sizePx, source, gamma, path);
     return {std::move(display.projection), std::move(display.intensity)};
+}
+
+SourcePicture readSource(JsonFields& source, const ProjectionContext& context) {
+    const auto size = source.required("size", source.wholeNumbers("size", 2, 1, kMostPx));
+    const glm::ivec2 sizePx(static_cast<int>(size[0]), static_cast<int>(size[1]));
+    JsonFields projection = source.required("projection", source.object("projection"));
+    const std::string type = projection.required("type", projection.text("type"));
+    if (type == "warp_mesh")
+        throw FieldError(FieldError::Kind::value, projection.nameOf("type"), "any type but another warp_mesh",
+                         "\"warp_mesh\"");
+    ReadProjection read = readProjection(projection, type, {context.folder, context.eyeM, sizePx});
+    projection.refuseUnknownKeys();
+    source.refuseUnknownKeys();
+    return {sizePx, std::move(read.projection)};
 }
 
 }  // namespace curvewall

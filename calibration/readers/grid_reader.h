@@ -1,6 +1,7 @@
 #pragma once
 // Projections that were measured on a grid, as wall files write them.
 
+#include "calibration/formats/calibration_file.h"
 #include "calibration/readers/projection_reader.h"
 
 namespace curvewall {
@@ -9,5 +10,8 @@ namespace curvewall {
 ProjectionPtr readCameraTexture(JsonFields& fields, const ProjectionContext& context);
 ProjectionPtr readSurfaceMap(JsonFields& fields, const ProjectionContext& context);
 ReadProjection readWarpMesh(JsonFields& fields, const ProjectionContext& context);
+
+// A picture that a mesh bends: its `size` in pixels and its `projection`, of any type but another mesh.
+SourcePicture readSource(JsonFields& source, const ProjectionContext& context);
 
 }  // namespace curvewall

@@ -73,8 +73,8 @@ std::optional<std::string> readPath(JsonFields& fields, const char* key,
     return (folder / *name).string();
 }
 
-std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context) {
-    return fields.required(key, readPath(fields, key, context.folder));
+std::string requiredPath(JsonFields& fields, const char* key, const std::filesystem::path& folder) {
+    return fields.required(key, readPath(fields, key, folder));
 }
 
 std::string describe(glm::dvec3 vector) { return describe(nlohmann::json{vector.x, vector.y, vector.z}); }

@@ -45,7 +45,7 @@ std::string requiredChoice(JsonFields& fields, const char* key, std::initializer
 
 // A file that an object names, relative to the wall file's folder. It must be there.
 std::optional<std::string> readPath(JsonFields& fields, const char* key, const std::filesystem::path& folder);
-std::string requiredPath(JsonFields& fields, const char* key, const ProjectionContext& context);
+std::string requiredPath(JsonFields& fields, const char* key, const std::filesystem::path& folder);
 
 // As messages quote it.
 std::string describe(glm::dvec3 vector);

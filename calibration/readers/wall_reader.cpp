@@ -2,13 +2,16 @@
 
 #include "calibration/errors.h"
 #include "calibration/files/json_file.h"
+#include "calibration/formats/calibration_file.h"
 #include "calibration/readers/blend_reader.h"
+#include "calibration/readers/grid_reader.h"
 #include "calibration/readers/projection_fields.h"
 #include "calibration/readers/projection_reader.h"
 
 #include <filesystem>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -22,29 +25,91 @@ std::string readName(JsonFields& fields, const char* key) {
     return name;
 }
 
+glm::ivec2 pixelsOf(const std::vector<int64_t>& size) {
+    return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+}
+
+BlendMapsPtr blendOf(BlendMaps blend) {
+    return blend.empty() ? nullptr : std::make_shared<const BlendMaps>(std::move(blend));
+}
+
 Display readDisplay(JsonFields& fields, const std::filesystem::path& folder, glm::dvec3 eyeM) {
     Display display;
     display.name = readName(fields, "name");
-    const auto size = fields.required("size", fields.wholeNumbers("size", 2, 1, kMostPx));
-    display.sizePx = {static_cast<int>(size[0]), static_cast<int>(size[1])};
-
+    display.sizePx = pixelsOf(fields.required("size", fields.wholeNumbers("size", 2, 1, kMostPx)));
     JsonFields projection = fields.required("projection", fields.object("projection"));
     display.projectionType = readName(projection, "type");
-    ReadProjection read;
-    try {
-        read = readProjection(projection, display.projectionType, {folder, eyeM, display.sizePx});
-    } catch (const UsageError& error) {
-        throw FieldError(FieldError::Kind::value, fields.nameOf("projection"),
-                         "a screen that the eye can see", error.what());
-    }
+    ReadProjection read = readProjection(projection, display.projectionType, {folder, eyeM, display.sizePx});
     projection.refuseUnknownKeys();
     display.projection = std::move(read.projection);
     BlendMaps blend;
     if (auto blendFields = fields.object("blend")) blend = readBlend(*blendFields, folder, display.sizePx);
     multiplyPicture(blend, read.intensity);
-    if (!blend.empty()) display.blend = std::make_shared<const BlendMaps>(std::move(blend));
-    fields.refuseUnknownKeys();
+    display.blend = blendOf(std::move(blend));
     return display;
+}
+
+Decisions givenDecisions(JsonFields& calibration) {
+    const nlohmann::json given = calibration.anyObject("assume").value_or(nlohmann::json::object());
+    return Decisions(given, calibration.nameOf("assume"));
+}
+
+std::string namesOf(const std::vector<Display>& displays) {
+    std::string names;
+    for (const Display& display : displays) names += (names.empty() ? "" : ", ") + display.name;
+    return names;
+}
+
+// The displays of a file that another program wrote; their names are the file's where the wall gives none.
+std::vector<Display> readCalibrated(JsonFields& fields, const std::filesystem::path& folder,
+                                    glm::dvec3 eyeM) {
+    JsonFields calibration = fields.required("calibration", fields.object("calibration"));
+    const std::string path = requiredPath(calibration, "file", folder);
+    CalibrationRequest request{.eyeM = eyeM};
+    request.display = calibration.text("display").value_or("");
+    if (const auto size = fields.wholeNumbers("size", 2, 1, kMostPx)) request.sizePx = pixelsOf(*size);
+    if (auto source = calibration.object("source"))
+        request.source = readSource(*source, {folder, eyeM, glm::ivec2(0)});
+    Decisions decisions = givenDecisions(calibration);
+    calibration.refuseUnknownKeys();
+
+    Wall wall = readCalibration(readFile(path, "a calibration"), filesBeside(path), request, decisions);
+    decisions.refuseUnusedKeys();
+    if (fields.has("name")) {
+        if (wall.displays.size() > 1)
+            throw FieldError(FieldError::Kind::value, calibration.nameOf("display"),
+                             "one of " + namesOf(wall.displays) + ", since name is for one display",
+                             request.display.empty() ? "nothing" : "\"" + request.display + "\"");
+        wall.displays.front().name = readName(fields, "name");
+    }
+    if (auto blendFields = fields.object("blend")) {
+        if (wall.displays.size() > 1)
+            throw FieldError(FieldError::Kind::value, calibration.nameOf("display"),
+                             "one of " + namesOf(wall.displays) + ", since blend is for one display",
+                             "nothing");
+        Display& display = wall.displays.front();
+        display.blend = blendOf(readBlend(*blendFields, folder, display.sizePx));
+    }
+    return std::move(wall.displays);
+}
+
+std::vector<Display> readDisplays(JsonFields& fields, const std::filesystem::path& folder, glm::dvec3 eyeM) {
+    if (fields.has("calibration") && fields.has("projection"))
+        throw FieldError(FieldError::Kind::shape, fields.nameOf("projection"),
+                         "a projection or a calibration", "both");
+    std::vector<Display> displays;
+    try {
+        if (fields.has("calibration"))
+            displays = readCalibrated(fields, folder, eyeM);
+        else
+            displays.push_back(readDisplay(fields, folder, eyeM));
+    } catch (const UsageError& error) {
+        throw FieldError(FieldError::Kind::value,
+                         fields.nameOf(fields.has("calibration") ? "calibration" : "projection"),
+                         "a screen that the eye can see", error.what());
+    }
+    fields.refuseUnknownKeys();
+    return displays;
 }
 
 Wall readFields(JsonFields fields, const std::filesystem::path& folder) {
@@ -53,22 +118,39 @@ Wall readFields(JsonFields fields, const std::filesystem::path& folder) {
     wall.eyeM = vector3(fields, "eye", kAnywhereM).value_or(glm::dvec3(0));
     wall.background = vector3(fields, "background", {0, 1}).value_or(glm::dvec3(0));
     std::set<std::string> names;
-    for (JsonFields& display : fields.objects("displays")) {
-        wall.displays.push_back(readDisplay(display, folder, wall.eyeM));
-        if (const std::string& name = wall.displays.back().name; !names.insert(name).second)
-            throw FieldError(FieldError::Kind::value, display.nameOf("name"), "a name of its own",
-                             "\"" + name + "\" again");
-    }
+    for (JsonFields& entry : fields.objects("displays"))
+        for (Display& display : readDisplays(entry, folder, wall.eyeM)) {
+            if (!names.insert(display.name).second)
+                throw FieldError(FieldError::Kind::value, entry.nameOf("name"), "a name of its own",
+                                 "\"" + display.name + "\" again");
+            wall.displays.push_back(std::move(display));
+        }
     fields.refuseUnknownKeys();
     return wall;
 }
 
+bool looksLikeJson(const FileBytes& file) {
+    return file.extension() == ".json" || file.bytes.find_first_not_of(" \t\r\n") == file.bytes.find('{');
+}
+
+// Nobody wrote a wall file around it, so that there is nothing to complain about but the file itself.
+Wall readBareCalibration(const FileBytes& file, std::optional<glm::ivec2> sizePx) {
+    Decisions decisions;
+    try {
+        return readCalibration(file, filesBeside(file.path), {.sizePx = sizePx}, decisions);
+    } catch (const UsageError& error) {
+        throw InputError(file.path, "", "a screen that the eye can see", error.what());
+    }
+}
+
 }  // namespace
 
-Wall readWall(const std::string& path) {
+Wall readWall(const std::string& path, std::optional<glm::ivec2> sizePx) {
+    const FileBytes file = readFile(path, "a wall file or a calibration");
+    if (isCalibration(file) || !looksLikeJson(file)) return readBareCalibration(file, sizePx);
+    if (sizePx) throw UsageError(path + " is a wall file, which has the size of each display");
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    return readJsonFile(path, "a wall file",
-                        [&](JsonFields fields) { return readFields(std::move(fields), folder); });
+    return readJson(file, [&](JsonFields fields) { return readFields(std::move(fields), folder); });
 }
 
 }  // namespace curvewall

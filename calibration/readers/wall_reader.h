@@ -1,13 +1,18 @@
 #pragma once
-// Wall files: JSON as docs/wall-file.md describes it.
+// Walls from disk: wall files, JSON as docs/wall-file.md describes it, and the calibrations that other
+// programs leave (docs/formats.md), which are walls by themselves.
 
 #include "calibration/wall.h"
 
+#include <glm/vec2.hpp>
+
+#include <optional>
 #include <string>
 
 namespace curvewall {
 
-// Throws InputError that names the file, the field, what was expected and what was found.
-Wall readWall(const std::string& path);
+// `sizePx` is for a calibration that names no resolution. Throws InputError that names the file, the field,
+// what was expected and what was found, and UsageError for a size where a wall file has one for each display.
+Wall readWall(const std::string& path, std::optional<glm::ivec2> sizePx = {});
 
 }  // namespace curvewall

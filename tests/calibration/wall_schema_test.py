@@ -40,6 +40,8 @@ RARE_PROJECTIONS = [
      "distortion": [0.01] * 14, "center": [0, 0, 0], "yaw_deg": 1, "pitch_deg": 2, "roll_deg": 3},
     {"type": "radial", "model": "polynomial", "fov_deg": 170, "coefficients": [1, 0, 0.01],
      "center": [0.1, 0.1, 0.1], "surface": {"type": "sphere", "center": [0, 0, 0], "radius": 3}},
+    {"type": "frustum", "left_deg": -30, "right_deg": 40, "down_deg": -20, "up_deg": 25, "center": [0, 0, 0],
+     "yaw_deg": 1, "pitch_deg": 2, "roll_deg": 3},
     {"type": "radial", "model": "stereographic", "fov_deg": 170, "yaw_deg": 1, "pitch_deg": 2, "roll_deg": 3},
 ]
 BLEND = {"alpha": "map.pfm", "beta": "map.pfm", "gamma": [2.2, 2.2, 2.2]}

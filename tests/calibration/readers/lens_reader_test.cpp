@@ -121,7 +121,7 @@ TEST_F(LensReader, ErrorsNameTheFieldAndWhatWasExpected) {
         {kCamera + R"("fisheye", "distortion": [1, 2, 3, 4, 5])", "distortion", "0 or 4 numbers"},
         {kCamera + R"("pinhole", "distortion": [0,0,0,0,0,0,0,0,0,0,0,0,0,2])", "distortion[13]", "a tilt"},
         {kCamera + R"("pinhole", "distortion": {})", "distortion", "a list of"},
-        {kRadial + R"("equidistant", "center": [0, 0, 1])", "center", "without a surface"},
+        {kRadial + R"("equidistant", "center": [0, 0, 1])", "center", "what has no surface"},
         {kRadial + R"("equidistant", "surface": 3)", "surface", "an object"},
         {kRadial + R"("equidistant", "surface": {})", "surface.type", "a value"},
         {kRadial + R"("equidistant", "surface": {"type": "cube"})", "surface.type", "one of sphere"},
