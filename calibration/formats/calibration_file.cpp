@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/formats/camera_yaml.h"
 #include "calibration/formats/mesh_calibration.h"
+#include "calibration/formats/mesh_file.h"
 
 #include <fmt/format.h>
 

@@ -17,7 +17,21 @@
 namespace curvewall {
 namespace {
 
-enum class GridFilling { cutFirstToLast, cutAcross, bilinear };
+enum class GridFilling { cutFirstToLast, cutAcross, cutAlternating, bilinear };
+
+constexpr double kMostIntensity = 1000;  // to the power of any gamma it still is a float
+
+GridFilling fillingOf(CellCut cut) {
+    switch (cut) {
+        case CellCut::firstToLast:
+            return GridFilling::cutFirstToLast;
+        case CellCut::across:
+            return GridFilling::cutAcross;
+        case CellCut::alternating:
+            break;
+    }
+    return GridFilling::cutAlternating;
+}
 
 std::vector<WarpVertex> warpVertices(const MeshCalibration& mesh, glm::dvec2 sizePx,
                                      glm::dvec2 sourceSizePx) {
@@ -28,12 +42,23 @@ std::vector<WarpVertex> warpVertices(const MeshCalibration& mesh, glm::dvec2 siz
             warped = {vertex->screen * sizePx, vertex->source * sourceSizePx, vertex->intensity};
             // NaN is not within either.
             warped.isValid =
+                warped.intensity <= kMostIntensity &&
                 glm::all(glm::lessThanEqual(glm::abs(warped.screenPx), glm::dvec2(kFarthestPx))) &&
                 glm::all(glm::lessThanEqual(glm::abs(warped.sourcePx), glm::dvec2(kFarthestPx)));
         }
         vertices.push_back(warped);
     }
     return vertices;
+}
+
+SourcePicture sourceOf(const MeshCalibration& mesh, const CalibrationRequest& request, glm::ivec2 sizePx,
+                       Decisions& decisions) {
+    if (mesh.frustum) return {sizePx, std::make_shared<FrustumProjection>(*mesh.frustum, sizePx)};
+    if (request.source) return *request.source;
+    return decideSource(mesh.bendsFisheye,
+                        mesh.bendsFisheye ? "meshes of this format are made for fisheye pictures"
+                                          : "nothing in the file tells what its source picture shows",
+                        sizePx, decisions);
 }
 
 }  // namespace
@@ -56,10 +81,48 @@ MeshDisplay meshOnDisplay(const MeshCalibration& mesh, glm::ivec2 sizePx, const 
     return {std::make_shared<WarpMeshProjection>(std::move(warp), source.projection), std::move(intensity)};
 }
 
-bool isMeshFile(const FileBytes&) { return false; }
+std::optional<MeshVertex> vertexIfValid(const MeshVertex& vertex) {
+    const bool isFinite = std::isfinite(vertex.screen.x) && std::isfinite(vertex.screen.y) &&
+                          std::isfinite(vertex.source.x) && std::isfinite(vertex.source.y) &&
+                          std::isfinite(vertex.intensity);
+    if (!isFinite || vertex.intensity < 0) return std::nullopt;
+    return vertex;
+}
 
-MeshCalibration readMesh(const FileBytes& file, const FindFile&, Decisions&) {
-    throw InputError(file.path, "", "a warp mesh", "a file that begins like none");
+void requireFrustum(const Frustum& frustum, const FileBytes& file) {
+    try {
+        const FrustumProjection projection(frustum, {1, 1});
+    } catch (const UsageError& error) {
+        throw InputError(file.path, "frustum", "a picture with an area", error.what());
+    }
+}
+
+SourcePicture decideSource(bool isFisheye, const std::string& evidence, glm::ivec2 displayPx,
+                           Decisions& decisions) {
+    isFisheye = decisions.choose("source", {{"fisheye", true}, {"perspective", false}}, isFisheye, evidence);
+    const Range fov = isFisheye ? Range{0, 360, true} : Range{0, 180, true, true};
+    const double fovRad =
+        glm::radians(decisions.number("source_fov_deg", fov, isFisheye ? 180 : 90,
+                                      isFisheye ? "fisheye pictures show a hemisphere as a rule"
+                                                : "no more than a convention, horizontally"));
+    const auto angleRad = [&](const char* key, double guessDeg, const char* why) {
+        return glm::radians(decisions.number(key, {-360, 360}, guessDeg, why));
+    };
+    const Orientation orientation{
+        angleRad("source_yaw_deg", 0, "the picture is taken to look ahead"),
+        isFisheye ? angleRad("source_pitch_deg", 90,
+                             "the centre of a fulldome master is the zenith, its bottom edge the front")
+                  : angleRad("source_pitch_deg", 0, "the picture is taken to look ahead"),
+        angleRad("source_roll_deg", 0, "the picture is taken to be upright")};
+    const glm::dvec2 sizePx = displayPx;
+    if (isFisheye) {
+        const int sidePx = std::max(displayPx.x, displayPx.y);
+        LensPtr lens = circularLens({}, fovRad, glm::ivec2(sidePx));
+        return {glm::dvec2(sidePx), std::make_shared<LensProjection>(std::move(lens), orientation)};
+    }
+    const double upRad = std::atan(std::tan(fovRad / 2) * sizePx.y / sizePx.x);
+    const Frustum frustum{-fovRad / 2, fovRad / 2, -upRad, upRad, orientation};
+    return {sizePx, std::make_shared<FrustumProjection>(frustum, sizePx)};
 }
 
 Display meshDisplay(const MeshCalibration& mesh, const FileBytes& file, const CalibrationRequest& request,
@@ -67,9 +130,7 @@ Display meshDisplay(const MeshCalibration& mesh, const FileBytes& file, const Ca
     Display display{.name = file.stem(), .projectionType = "warp_mesh"};
     display.sizePx = decideSize(request, mesh.sizePx, mesh.aspect, decisions);
     const double gamma = decideIntensityGamma(mesh, decisions);
-    SourcePicture source = request.source.value_or(SourcePicture{});
-    if (mesh.frustum)
-        source = {display.sizePx, std::make_shared<FrustumProjection>(*mesh.frustum, display.sizePx)};
+    const SourcePicture source = sourceOf(mesh, request, display.sizePx, decisions);
     MeshDisplay onDisplay = meshOnDisplay(mesh, display.sizePx, source, gamma, file.path);
     display.projection = std::move(onDisplay.projection);
     BlendMaps blend;
@@ -84,22 +145,26 @@ std::vector<WarpCell> decideCells(glm::ivec2 vertices, CellCut guess, const std:
     switch (decisions.choose("interpolation",
                              {{"triangles", GridFilling::cutFirstToLast},
                               {"triangles_across", GridFilling::cutAcross},
+                              {"triangles_alternating", GridFilling::cutAlternating},
                               {"bilinear", GridFilling::bilinear}},
-                             guess == CellCut::across ? GridFilling::cutAcross : GridFilling::cutFirstToLast,
-                             evidence)) {
+                             fillingOf(guess), evidence)) {
         case GridFilling::cutFirstToLast:
             return trianglesOfGrid(vertices);
         case GridFilling::cutAcross:
             return trianglesOfGrid(vertices, CellCut::across);
-        default:
-            return quadrilateralsOfGrid(vertices);
+        case GridFilling::cutAlternating:
+            return trianglesOfGrid(vertices, CellCut::alternating);
+        case GridFilling::bilinear:
+            break;
     }
+    return quadrilateralsOfGrid(vertices);
 }
 
 double decideIntensityGamma(const MeshCalibration& mesh, Decisions& decisions) {
     if (std::ranges::all_of(mesh.vertices, [](const auto& v) { return !v || v->intensity == 1; })) return 1;
-    return decisions.number("intensity_gamma", {0, 10, true}, 2.2,
-                            "programs multiply encoded colours by the intensity");
+    return decisions.number(
+        "intensity_gamma", {0, 10, true}, mesh.intensityGamma.value_or(2.2),
+        mesh.intensityGamma ? "the file names it" : "programs multiply encoded colours by the intensity");
 }
 
 }  // namespace curvewall

@@ -23,18 +23,14 @@ struct MeshVertex {
 };
 
 struct MeshCalibration {
-    std::vector<std::optional<MeshVertex>> vertices;  // cells with one that is missing are holes
-    std::vector<WarpCell> cells;
-    std::optional<Frustum> frustum{};    // what the source shows, where the file tells it
-    std::optional<glm::ivec2> sizePx{};  // of the display, likewise
-    std::optional<double> aspect{};      // its width over its height, likewise
+    std::vector<std::optional<MeshVertex>> vertices{};  // cells with one that is missing are holes
+    std::vector<WarpCell> cells{};
+    std::optional<Frustum> frustum{};        // what the source shows, where the file tells it
+    bool bendsFisheye = false;               // meshes of the format are made for a fisheye as the source
+    std::optional<glm::ivec2> sizePx{};      // of the display, where the file tells it
+    std::optional<double> aspect{};          // its width over its height, likewise
+    std::optional<double> intensityGamma{};  // likewise
 };
-
-// Whether a mesh lies in the file, by its content and extension.
-bool isMeshFile(const FileBytes& file);
-
-// Reads it by the reader of its format. Throws like readCalibration.
-MeshCalibration readMesh(const FileBytes& file, const FindFile& find, Decisions& decisions);
 
 struct MeshDisplay {
     ProjectionPtr projection;
@@ -46,6 +42,13 @@ struct MeshDisplay {
 MeshDisplay meshOnDisplay(const MeshCalibration& mesh, glm::ivec2 sizePx, const SourcePicture& source,
                           double intensityGamma, const std::string& path);
 
+// What becomes of numbers from a file: nothing for a vertex with one that is not finite or with a negative
+// intensity.
+std::optional<MeshVertex> vertexIfValid(const MeshVertex& vertex);
+
+// Throws InputError unless the frustum's picture has an area.
+void requireFrustum(const Frustum& frustum, const FileBytes& file);
+
 // Decides how the cells of a measured grid are filled.
 std::vector<WarpCell> decideCells(glm::ivec2 vertices, CellCut guess, const std::string& evidence,
                                   Decisions& decisions);
@@ -54,6 +57,10 @@ std::vector<WarpCell> decideCells(glm::ivec2 vertices, CellCut guess, const std:
 double decideIntensityGamma(const MeshCalibration& mesh, Decisions& decisions);
 
 bool isWithinPicture(glm::dvec2 fraction);  // 0 to 1 in both directions
+
+// Decides what a picture shows that no file and no user tells about: a fisheye or a perspective view.
+SourcePicture decideSource(bool isFisheye, const std::string& evidence, glm::ivec2 displayPx,
+                           Decisions& decisions);
 
 // The whole display, with the source that the file's frustum, the user or else an assumption gives.
 Display meshDisplay(const MeshCalibration& mesh, const FileBytes& file, const CalibrationRequest& request,

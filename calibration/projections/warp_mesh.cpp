@@ -50,9 +50,10 @@ std::vector<WarpCell> quadrilateralsOfGrid(glm::ivec2 vertices) {
 }
 
 std::vector<WarpCell> trianglesOfGrid(glm::ivec2 vertices, CellCut cut) {
-    const bool across = cut == CellCut::across;
     std::vector<WarpCell> cells;
     forGridCells(vertices, [&](uint32_t v00, uint32_t v10, uint32_t v01, uint32_t v11) {
+        const bool isEvenRow = v00 / static_cast<uint32_t>(vertices.x) % 2 == 0;
+        const bool across = cut == CellCut::across || (cut == CellCut::alternating && isEvenRow);
         cells.push_back({{v00, v10, across ? v01 : v11, 0}, CellShape::triangle});
         cells.push_back({{across ? v10 : v00, v11, v01, 0}, CellShape::triangle});
     });

@@ -30,8 +30,9 @@ struct WarpCell {
 
 // The cells of a grid of vertices, row by row.
 std::vector<WarpCell> quadrilateralsOfGrid(glm::ivec2 vertices);
-// Each cell in two: cut from its first vertex to its last, or across between the two others.
-enum class CellCut { firstToLast, across };
+// Each cell in two: cut from its first vertex to its last, or across between the two others, or one and the
+// other by turns: across in the first row, as a triangle strip that runs to and fro does.
+enum class CellCut { firstToLast, across, alternating };
 std::vector<WarpCell> trianglesOfGrid(glm::ivec2 vertices, CellCut cut = CellCut::firstToLast);
 
 class WarpMesh {

@@ -42,7 +42,7 @@ NumberMap imageOffsets(const RayGrid& grid, const Frustum& frustum, glm::ivec2 s
 NumberMap imageFractions(const RayGrid& grid, const Frustum& frustum) {
     const FrustumProjection image(frustum, glm::dvec2(1));
     return mapOf(grid, 3, [&](glm::ivec2 /*node*/, glm::dvec3 ray) {
-        return glm::dvec3(image.project(ray).at(0), std::numeric_limits<double>::quiet_NaN());
+        return glm::dvec3(image.project(ray).at(0), 0);
     });
 }
 

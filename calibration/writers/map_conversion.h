@@ -18,7 +18,7 @@ NumberMap surfacePoints(const RayGrid& grid, glm::dvec3 eyeM, glm::dvec3 originM
 // frustum and has the display's size. NaN in holes.
 NumberMap imageOffsets(const RayGrid& grid, const Frustum& frustum, glm::ivec2 sizePx);
 
-// Where it lies there as fractions of the image, from the top left. NaN in holes.
+// Where it lies there as fractions of the image, from the top left, and 0. NaN in holes.
 NumberMap imageFractions(const RayGrid& grid, const Frustum& frustum);
 
 }  // namespace curvewall

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <pugixml.hpp>
 #include <sstream>
+#include <utility>
 
 namespace curvewall {
 namespace {
@@ -79,6 +80,7 @@ public:
         if (isSurface_) {
             addText(warp, "geometricUnit", "m");
             addText(warp, "originOf3DData", "idealEyePoint");
+            addWallAxes(region);
             members_.push_back(
                 {name + "-warp.pfm", pfmBytes(surfacePoints(grid, glm::dvec3(0), glm::dvec3(0)))});
         } else {
@@ -123,6 +125,16 @@ private:
         addNumber(node, "leftAngle", glm::degrees(frustum.leftRad));
         addNumber(node, "upAngle", glm::degrees(frustum.upRad));
         addNumber(node, "downAngle", glm::degrees(frustum.downRad));
+    }
+
+    // The tips of an aircraft's axes: pitch points right, roll ahead and yaw down.
+    static void addWallAxes(pugi::xml_node region) {
+        pugi::xml_node frame = region.append_child("coordinateFrame");
+        for (const auto& [name, axis] :
+             {std::pair{"pos", glm::ivec3(0)}, std::pair{"yaw", glm::ivec3(0, -1, 0)},
+              std::pair{"pitch", glm::ivec3(1, 0, 0)}, std::pair{"roll", glm::ivec3(0, 0, -1)}})
+            for (int i = 0; i < 3; ++i)
+                addText(frame, (std::string(name) + "xyz"[i]).c_str(), std::to_string(axis[i]));
     }
 
     void addMap(pugi::xml_node fileset, const char* element, const std::string& file, glm::ivec2 sizePx,
