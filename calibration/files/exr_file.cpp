@@ -3,9 +3,12 @@
 #include <OpenEXR/openexr.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <libdeflate.h>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -195,7 +198,9 @@ std::optional<NumberMap> readPlainExr(const std::string& path) {
     auto layout = layoutOf(file.get());
     if (!layout) return std::nullopt;
     NumberMap map = std::move(layout->map);
-    requirePlausibleSize(path, map);
+    std::error_code error;
+    const uint64_t bytes = std::filesystem::file_size(path, error);
+    requirePlausibleSize(path, error ? 0 : bytes, map);
     map.values.resize(static_cast<size_t>(map.sizePx.x) * static_cast<size_t>(map.sizePx.y) *
                       static_cast<size_t>(map.channels));
     ChunkReader reader(file.get(), *layout);

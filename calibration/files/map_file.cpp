@@ -4,11 +4,16 @@
 #include "calibration/files/exr_file.h"
 #include "calibration/files/pfm_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace curvewall {
@@ -18,33 +23,40 @@ constexpr int kMaxChannels = 4;
 // Three times as fast as zlib's default of 6, for files a few per cent larger.
 constexpr int kPngCompressionLevel = 4;
 
-}  // namespace
+constexpr std::string_view kExrStart("\x76\x2f\x31\x01", 4);
 
-void requirePlausibleSize(const std::string& path, const NumberMap& map) {
-    // Deflate packs a thousand bytes into one at best, and a byte of a file may become a float of four.
-    constexpr uint64_t kMostPacked = 8192;
-    std::error_code error;
-    const uint64_t bytes = std::filesystem::file_size(path, error);
-    const uint64_t numbers = static_cast<uint64_t>(map.sizePx.x) * static_cast<uint64_t>(map.sizePx.y) *
-                             static_cast<uint64_t>(map.channels);
-    if (error || numbers * sizeof(float) > bytes * kMostPacked)
-        throw InputError(path, "",
-                         "numbers of " + std::to_string(map.sizePx.x) + " x " + std::to_string(map.sizePx.y) +
-                             " pixels, as its header says",
-                         "a file of " + std::to_string(bytes) + " bytes");
+struct Picture {
+    std::string_view start;
+    const char* name;  // its extension calls for the reader
+};
+
+constexpr std::array<Picture, 6> kPictures{{
+    {kExrStart, "map.exr"},
+    {"\x89PNG\r\n", "map.png"},
+    {{"II*\0", 4}, "map.tif"},
+    {{"MM\0*", 4}, "map.tif"},
+    {"\xff\xd8\xff", "map.jpg"},
+    {"BM", "map.bmp"},
+}};
+
+const Picture* pictureOf(std::string_view bytes) {
+    const auto found =
+        std::ranges::find_if(kPictures, [bytes](const Picture& p) { return bytes.starts_with(p.start); });
+    return found == kPictures.end() ? nullptr : &*found;
 }
 
-NumberMap readNumberMap(const std::string& path) {
-    if (isPfm(path)) return readPfm(path);
-    if (auto map = readPlainExr(path)) return std::move(*map);
+// Or colour would come multiplied by its alpha.
+OIIO::ImageSpec asStored() {
+    OIIO::ImageSpec options;
+    options.attribute("oiio:UnassociatedAlpha", 1);
+    return options;
+}
+
+NumberMap readPixels(OIIO::ImageInput& in, const std::string& path, uint64_t fileBytes) {
     const auto fail = [&path](const std::string& found) {
         return InputError(path, "", "a readable image", found);
     };
-    OIIO::ImageSpec options;
-    options.attribute("oiio:UnassociatedAlpha", 1);  // or colour would come multiplied by its alpha
-    const auto in = OIIO::ImageInput::open(path, &options);
-    if (!in) throw fail(OIIO::geterror());
-    const OIIO::ImageSpec& spec = in->spec();
+    const OIIO::ImageSpec& spec = in.spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 ||
         int64_t{spec.width} * spec.height > kMaxMapTexels)
         throw fail("one of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
@@ -52,13 +64,56 @@ NumberMap readNumberMap(const std::string& path) {
         throw fail("one of " + std::to_string(spec.nchannels) + " channels");
 
     NumberMap map{{spec.width, spec.height}, spec.nchannels, !spec.format.is_floating_point(), {}};
-    requirePlausibleSize(path, map);
+    requirePlausibleSize(path, fileBytes, map);
     map.values.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
                       static_cast<size_t>(spec.nchannels));
-    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, map.values.data()))
-        throw fail(in->geterror());
+    if (!in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, map.values.data()))
+        throw fail(in.geterror());
     return map;
 }
+
+}  // namespace
+
+void requirePlausibleSize(const std::string& path, uint64_t fileBytes, const NumberMap& map) {
+    // Deflate packs a thousand bytes into one at best, and a byte of a file may become a float of four.
+    constexpr uint64_t kMostPacked = 8192;
+    const uint64_t numbers = static_cast<uint64_t>(map.sizePx.x) * static_cast<uint64_t>(map.sizePx.y) *
+                             static_cast<uint64_t>(map.channels);
+    if (numbers * sizeof(float) > fileBytes * kMostPacked)
+        throw InputError(path, "",
+                         "numbers of " + std::to_string(map.sizePx.x) + " x " + std::to_string(map.sizePx.y) +
+                             " pixels, as its header says",
+                         "a file of " + std::to_string(fileBytes) + " bytes");
+}
+
+NumberMap readNumberMap(const std::string& path) {
+    if (isPfmFile(path)) return readPfm(path);
+    if (auto map = readPlainExr(path)) return std::move(*map);
+    const OIIO::ImageSpec options = asStored();
+    const auto in = OIIO::ImageInput::open(path, &options);
+    if (!in) throw InputError(path, "", "a readable image", OIIO::geterror());
+    std::error_code error;
+    const uint64_t bytes = std::filesystem::file_size(path, error);
+    return readPixels(*in, path, error ? 0 : bytes);
+}
+
+NumberMap readNumberMap(const FileBytes& file) {
+    if (isPfm(file.bytes)) return parsePfm(file);
+    const Picture* picture = pictureOf(file.bytes);
+    if (!picture)
+        throw InputError(file.path, "", "a PFM, EXR, PNG, TIFF, JPEG or BMP",
+                         "a file that begins like none of them");
+    OIIO::Filesystem::IOMemReader reader(const_cast<char*>(file.bytes.data()), file.bytes.size());
+    const OIIO::ImageSpec options = asStored();
+    // Not the name of the file, which might call for a reader of another format.
+    const auto in = OIIO::ImageInput::open(picture->name, &options, &reader);
+    if (!in) throw InputError(file.path, "", "a readable image", OIIO::geterror());
+    return readPixels(*in, file.path, file.bytes.size());
+}
+
+bool isPicture(std::string_view bytes) { return pictureOf(bytes) != nullptr; }
+
+bool isExr(std::string_view bytes) { return bytes.starts_with(kExrStart); }
 
 void writePng16(const std::string& path, const NumberMap& map) {
     OIIO::ImageSpec spec(map.sizePx.x, map.sizePx.y, map.channels, OIIO::TypeDesc::UINT16);

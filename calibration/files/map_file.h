@@ -1,10 +1,13 @@
 #pragma once
 // Files of numbers in the shape of a picture: offset grids, surface points, masks.
 
+#include "calibration/files/file_bytes.h"
+
 #include <glm/vec2.hpp>
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace curvewall {
@@ -26,11 +29,18 @@ struct NumberMap {
 
 // Throws InputError where the file is too small to hold numbers of that many pixels and channels, however
 // well they are packed: a damaged header must not take all memory there is.
-void requirePlausibleSize(const std::string& path, const NumberMap& map);
+void requirePlausibleSize(const std::string& path, uint64_t fileBytes, const NumberMap& map);
 
 // Every format that OpenImageIO reads. Numbers are not touched: no transfer function, no alpha
 // multiplied in. Throws InputError.
 NumberMap readNumberMap(const std::string& path);
+
+// The same from memory, for PFM and for the pictures that isPicture knows.
+NumberMap readNumberMap(const FileBytes& file);
+
+// Whether the bytes begin like EXR, PNG, TIFF, JPEG or BMP.
+bool isPicture(std::string_view bytes);
+bool isExr(std::string_view bytes);
 
 // One or three channels of numbers from 0 to 1 as a 16-bit PNG, likewise untouched. Throws std::runtime_error
 // where it cannot be written.

@@ -86,6 +86,23 @@ bool looksLikeXml(std::string_view bytes) {
     return begin != std::string_view::npos && bytes[begin] == '<';
 }
 
+std::string xmlRootName(std::string_view bytes) {
+    constexpr std::string_view kEndOfName = " \t\r\n/>";
+    if (!looksLikeXml(bytes)) return "";
+    for (size_t at = bytes.find('<'); at != std::string_view::npos; at = bytes.find('<', at)) {
+        const std::string_view rest = bytes.substr(at);
+        if (rest.starts_with("<!--")) {
+            at = bytes.find("-->", at);
+        } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
+            at = bytes.find('>', at);
+        } else {
+            return std::string(rest.substr(1, rest.find_first_of(kEndOfName) - 1));
+        }
+        if (at == std::string_view::npos) break;
+    }
+    return "";
+}
+
 std::string_view trimmed(std::string_view text) {
     const size_t begin = text.find_first_not_of(kWhiteSpace);
     if (begin == std::string_view::npos) return {};

@@ -57,6 +57,9 @@ XmlElement parseXml(const FileBytes& file);
 // Whether the bytes begin like XML, after a byte order mark and white space.
 bool looksLikeXml(std::string_view bytes);
 
+// The name of the root element, without parsing what follows it; empty for what is no XML in UTF-8.
+std::string xmlRootName(std::string_view bytes);
+
 // The whole text as a finite number, whatever the locale; white space around it and a plus sign pass.
 std::optional<double> parseNumber(std::string_view text);
 

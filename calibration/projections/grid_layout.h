@@ -55,6 +55,21 @@ public:
     // How far beyond the nearest node a line lies; zero where the node is on it.
     glm::dvec2 beyondNodePx(glm::ivec2 line) const { return linePx(line) - linePx(nodeAt(line) + border_); }
 
+    // The value on a line of a map of centers whose border cells go on straight: beyond the outermost nodes
+    // half a cell further along the line through the two last ones.
+    template <class Vector, class Sample>
+    Vector straightAt(glm::ivec2 line, const Sample& sample) const {
+        const glm::ivec2 last = lines() - 1;
+        for (int axis = 0; axis < 2; ++axis) {
+            if (line[axis] != 0 && line[axis] != last[axis]) continue;
+            glm::ivec2 step(0);
+            step[axis] = line[axis] == 0 ? 1 : -1;
+            return 1.5 * straightAt<Vector>(line + step, sample) -
+                   0.5 * straightAt<Vector>(line + 2 * step, sample);
+        }
+        return sample(line);
+    }
+
     glm::dvec2 positionPx(const CellPosition& p) const {
         return glm::mix(linePx(p.cell), linePx(p.cell + 1), p.st);
     }

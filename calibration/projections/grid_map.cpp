@@ -24,14 +24,20 @@ GridMap::GridMap(NumberMap numbers, const NodeMeaning& meaning, glm::ivec2 sizeP
       slackPx_(kRounding * std::max(sizePx.x, sizePx.y)),
       pyramid_(survey()) {}
 
-glm::dvec2 GridMap::node(glm::ivec2 line) const {
-    const glm::ivec2 sample = layout_.nodeAt(line);
+glm::dvec2 GridMap::sample(glm::ivec2 line) const {
+    const glm::ivec2 place = layout_.nodeAt(line);
     const float* number =
-        numbers_.at(sample.x, meaning_.bottomRowFirst ? numbers_.sizePx.y - 1 - sample.y : sample.y);
+        numbers_.at(place.x, meaning_.bottomRowFirst ? numbers_.sizePx.y - 1 - place.y : place.y);
     glm::dvec2 value = meaning_.gain * glm::dvec2(number[0], number[1]) + meaning_.bias;
     value += meaning_.isOffset ? layout_.linePx(line) : layout_.beyondNodePx(line);
     if (std::abs(value.x) <= kFarthestPx && std::abs(value.y) <= kFarthestPx) return value;
     return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
+}
+
+glm::dvec2 GridMap::node(glm::ivec2 line) const {
+    if (meaning_.border == BorderCells::straight && layout_.hasBorder())
+        return layout_.straightAt<glm::dvec2>(line, [this](glm::ivec2 l) { return sample(l); });
+    return sample(line);
 }
 
 GridPyramid<2> GridMap::survey() {

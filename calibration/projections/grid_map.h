@@ -2,9 +2,9 @@
 // A measured map of a rectangle into a plane: values at the nodes of a grid, bilinear between them, and all
 // that it maps to a given value. The paper's camera texture (Lorenz and Doellner 2009, section 3.2) is one.
 
+#include "calibration/files/map_file.h"
 #include "calibration/projections/grid_layout.h"
 #include "calibration/projections/grid_pyramid.h"
-#include "calibration/files/map_file.h"
 
 #include <glm/vec2.hpp>
 
@@ -13,12 +13,19 @@
 
 namespace curvewall {
 
+// How a map of centers goes on from its outermost nodes to the border of the rectangle, half a cell further.
+enum class BorderCells {
+    sameOffset,  // the offset from the position stays as it is, as in a clamped texture of offsets
+    straight,    // as the cells beside them do: values that are positions would be off by half a cell else
+};
+
 // What the numbers of a file mean: value = gain * number + bias, in pixels, x right and y down.
 struct NodeMeaning {
     glm::dvec2 gain{1};
     glm::dvec2 bias{0};
     bool isOffset = false;  // the value is relative to where its node lies
     bool bottomRowFirst = false;
+    BorderCells border = BorderCells::sameOffset;  // straight needs 2 x 2 nodes
 };
 
 // A value farther away than this is not taken for a measurement: between such a node and its neighbours
@@ -37,8 +44,7 @@ public:
     bool hasSamples() const { return hasSamples_; }
     bool hasArea() const { return hasArea_; }  // at least one cell is no hole
 
-    // The value at a position; nothing in holes and outside the rectangle. With `centers` the
-    // offset continues as it is from the outermost nodes to the border, as in a clamped texture.
+    // The value at a position; nothing in holes and outside the rectangle.
     std::optional<glm::dvec2> at(glm::dvec2 px) const;
 
     // Every position with the value.
@@ -52,6 +58,7 @@ private:
     struct Corners {
         glm::dvec2 v00, v10, v01, v11;
     };
+    glm::dvec2 sample(glm::ivec2 line) const;
     glm::dvec2 node(glm::ivec2 line) const;
     std::optional<Corners> corners(glm::ivec2 cell) const;  // nothing for a hole
     GridPyramid<2> survey();

@@ -86,14 +86,7 @@ glm::dvec3 MeasuredSurface::sample(glm::ivec2 line) const {
 
 glm::dvec3 MeasuredSurface::node(glm::ivec2 line) const {
     if (!layout_.hasBorder()) return sample(line);
-    const glm::ivec2 last = layout_.lines() - 1;
-    for (int axis = 0; axis < 2; ++axis) {
-        if (line[axis] != 0 && line[axis] != last[axis]) continue;
-        glm::ivec2 step(0);
-        step[axis] = line[axis] == 0 ? 1 : -1;
-        return 1.5 * node(line + step) - 0.5 * node(line + 2 * step);
-    }
-    return sample(line);
+    return layout_.straightAt<glm::dvec3>(line, [this](glm::ivec2 l) { return sample(l); });
 }
 
 std::optional<MeasuredSurface::Corners> MeasuredSurface::corners(glm::ivec2 cell) const {

@@ -1,0 +1,220 @@
+#include "calibration/formats/mpcdi_document.h"
+
+#include "calibration/errors.h"
+#include "calibration/files/xml_document.h"
+
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+constexpr size_t kMostRegions = 1024;
+constexpr double kMostPx = 16384;
+
+std::string attributeText(const XmlElement& element, std::string_view name) {
+    return element.attribute(name).value_or("");
+}
+
+std::string childText(const XmlElement& element, std::string_view name) {
+    const auto child = element.child(name);
+    return child ? child->text() : "";
+}
+
+std::optional<glm::ivec2> resolutionOf(const XmlElement& element) {
+    const auto side = [&](std::string_view name) {
+        const auto number = element.attributeNumber(name);
+        if (number && !(*number >= 1 && *number <= kMostPx && *number == std::floor(*number)))
+            throw InputError(element.path(), element.place() + "/@" + std::string(name),
+                             "a whole number from 1 to 16384", attributeText(element, name));
+        return number;
+    };
+    const auto x = side("xResolution"), y = side("yResolution");
+    if (!x || !y) return std::nullopt;
+    return glm::ivec2(*x, *y);
+}
+
+double requiredChild(const XmlElement& element, std::string_view name) {
+    const auto number = element.childNumber(name);
+    if (!number) throw element.error(std::string(name), "none");
+    return *number;
+}
+
+MpcdiFrustum frustumOf(const XmlElement& element) {
+    const auto angle = [&](std::string_view name) { return element.childNumber(name).value_or(0); };
+    return {.yawDeg = angle("yaw"),
+            .pitchDeg = angle("pitch"),
+            .rollDeg = angle("roll"),
+            .rightDeg = requiredChild(element, "rightAngle"),
+            .leftDeg = requiredChild(element, "leftAngle"),
+            .upDeg = requiredChild(element, "upAngle"),
+            .downDeg = requiredChild(element, "downAngle")};
+}
+
+glm::dvec3 vectorOf(const XmlElement& element, const std::string& name) {
+    return {requiredChild(element, name + "x"), requiredChild(element, name + "y"),
+            requiredChild(element, name + "z")};
+}
+
+MpcdiFrame frameOf(const XmlElement& element) {
+    MpcdiFrame frame{vectorOf(element, "pos"), vectorOf(element, "yaw"), vectorOf(element, "pitch"),
+                     vectorOf(element, "roll")};
+    constexpr double kUnit = 1e-3;
+    const auto dot = [](glm::dvec3 a, glm::dvec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    for (const glm::dvec3 axis : {frame.yaw, frame.pitch, frame.roll})
+        if (!(std::abs(dot(axis, axis) - 1) < kUnit))
+            throw element.error("axes of length one", std::to_string(std::sqrt(dot(axis, axis))));
+    if (!(std::abs(dot(frame.yaw, frame.pitch)) < kUnit && std::abs(dot(frame.yaw, frame.roll)) < kUnit &&
+          std::abs(dot(frame.pitch, frame.roll)) < kUnit))
+        throw element.error("axes at right angles", "others");
+    return frame;
+}
+
+std::optional<MpcdiWarp> warpOf(const std::optional<XmlElement>& element) {
+    if (!element || childText(*element, "path").empty()) return std::nullopt;
+    return MpcdiWarp{childText(*element, "path"), lowerCase(childText(*element, "interpolation")),
+                     lowerCase(childText(*element, "geometricUnit")),
+                     lowerCase(childText(*element, "originOf3DData"))};
+}
+
+std::optional<MpcdiPicture> pictureOf(const std::optional<XmlElement>& element) {
+    if (!element || childText(*element, "path").empty()) return std::nullopt;
+    const auto gamma = element->childNumber("gammaEmbedded");
+    if (gamma && !(*gamma >= 0.1 && *gamma <= 10))
+        throw element->error("a gammaEmbedded from 0.1 to 10", std::to_string(*gamma));
+    return MpcdiPicture{childText(*element, "path"), gamma};
+}
+
+MpcdiFisheye fisheyeOf(const XmlElement& fisheye, const std::optional<XmlElement>& anamorphic) {
+    MpcdiFisheye lens;
+    lens.offset = {fisheye.childNumber("horizontalOffset").value_or(0),
+                   fisheye.childNumber("verticalOffset").value_or(0)};
+    for (size_t i = 0; i < lens.coefficients.size(); ++i)
+        lens.coefficients[i] = fisheye.childNumber("f" + std::to_string(i + 1)).value_or(0);
+    if (anamorphic) {
+        const auto ratio = anamorphic->childNumber("ratio");
+        lens.anamorphicRatio =
+            ratio ? *ratio : anamorphic->childNumber("aspect").value_or(1);  // the older spelling
+        if (!(lens.anamorphicRatio >= 0.01 && lens.anamorphicRatio <= 100))
+            throw anamorphic->error("a ratio from 0.01 to 100", std::to_string(lens.anamorphicRatio));
+        lens.anamorphicDeg = anamorphic->childNumber("angle").value_or(0);
+    }
+    return lens;
+}
+
+// What belongs to a region, from its file set or from the region itself.
+void readFiles(const XmlElement& files, MpcdiRegion& region) {
+    const auto set = [](auto& place, auto value) {
+        if (!place) place = std::move(value);
+    };
+    set(region.warp, warpOf(files.child("geometryWarpFile")));
+    set(region.distortion, warpOf(files.child("distortionMap")));
+    set(region.alpha, pictureOf(files.child("alphaMap")));
+    set(region.beta, pictureOf(files.child("betaMap")));
+    for (const char* name : {"decodeLUT", "correctLUT", "encodeLUT"})
+        if (const auto table = files.child(name); table && !childText(*table, "path").empty())
+            region.unread.emplace_back(name);
+}
+
+MpcdiRegion regionOf(const XmlElement& element) {
+    MpcdiRegion region;
+    region.id = attributeText(element, "id");
+    region.place = element.place();
+    const auto fraction = [&](std::string_view name, double otherwise) {
+        return element.attributeNumber(name).value_or(otherwise);
+    };
+    region.origin = {fraction("x", 0), fraction("y", 0)};
+    region.size = {fraction("xsize", 1), fraction("ysize", 1)};
+    region.sizePx = resolutionOf(element);
+    if (const auto frustum = element.child("frustum"); frustum && !frustum->children().empty())
+        region.frustum = frustumOf(*frustum);
+    if (const auto frame = element.child("coordinateFrame"); frame && !frame->children().empty())
+        region.frame = frameOf(*frame);
+    readFiles(element, region);
+    return region;
+}
+
+// What the file says of regions elsewhere, by their id.
+struct Elsewhere {
+    std::map<std::string, std::vector<XmlElement>> fileSets;
+    std::map<std::pair<std::string, std::string>, XmlElement> extended;  // by the buffer's id first
+};
+
+Elsewhere readElsewhere(const XmlElement& root) {
+    Elsewhere elsewhere;
+    for (const XmlElement& set : root.descendants("fileset"))
+        elsewhere.fileSets[attributeText(set, "region")].push_back(set);
+    for (const XmlElement& extension : root.descendants("extension"))
+        for (const XmlElement& buffer : extension.children("buffer"))
+            for (const XmlElement& region : buffer.children("region"))
+                if (region.child("fisheye"))
+                    elsewhere.extended.try_emplace({attributeText(buffer, "id"), attributeText(region, "id")},
+                                                   region);
+    return elsewhere;
+}
+
+}  // namespace
+
+MpcdiDocument parseMpcdi(const FileBytes& manifest) {
+    const XmlElement root = parseXml(manifest);
+    if (lowerCase(root.name()) != "mpcdi")
+        throw InputError(manifest.path, "", "an MPCDI manifest", "the element \"" + root.name() + "\"");
+    MpcdiDocument document{
+        manifest.path, lowerCase(attributeText(root, "profile")), attributeText(root, "version"), {}};
+    const auto display = root.child("display");
+    if (!display) throw root.error("a display", "none");
+    const Elsewhere elsewhere = readElsewhere(root);
+    size_t count = 0;
+    for (const XmlElement& buffer : display->children("buffer")) {
+        document.buffers.push_back({attributeText(buffer, "id"), resolutionOf(buffer), {}});
+        for (const XmlElement& element : buffer.children("region")) {
+            if (++count > kMostRegions) throw display->error("at most 1024 regions", "more");
+            MpcdiRegion region = regionOf(element);
+            if (const auto sets = elsewhere.fileSets.find(region.id); sets != elsewhere.fileSets.end())
+                for (const XmlElement& fileSet : sets->second) readFiles(fileSet, region);
+            if (const auto extended = elsewhere.extended.find({document.buffers.back().id, region.id});
+                extended != elsewhere.extended.end())
+                region.fisheye =
+                    fisheyeOf(*extended->second.child("fisheye"), extended->second.child("anamorphic"));
+            document.buffers.back().regions.push_back(std::move(region));
+        }
+    }
+    if (count == 0) throw display->error("a buffer with a region", "none");
+    return document;
+}
+
+std::vector<std::string> brokenRules(const MpcdiDocument& document) {
+    std::vector<std::string> broken;
+    const std::string& profile = document.profile;
+    const bool hasPose = profile == "3d" || profile == "sl";
+    if (hasPose && document.buffers.size() != 1)
+        broken.push_back("display: profile " + profile + " has one buffer, and there are " +
+                         std::to_string(document.buffers.size()));
+    std::set<std::string> origins;
+    for (const MpcdiBuffer& buffer : document.buffers)
+        for (const MpcdiRegion& region : buffer.regions) {
+            const auto breaks = [&](const std::string& what) {
+                broken.push_back(region.place + ": " + what);
+            };
+            const glm::dvec2 end = region.origin + region.size;
+            constexpr double kRounding = 1e-6;
+            if (!glm::all(glm::greaterThanEqual(region.origin, glm::dvec2(-kRounding))) ||
+                !glm::all(glm::lessThanEqual(end, glm::dvec2(1 + kRounding))) ||
+                !glm::all(glm::greaterThan(region.size, glm::dvec2(0))))
+                breaks("lies outside of its buffer");
+            if (!region.sizePx) breaks("no resolution");
+            if (hasPose && !region.frustum) breaks("profile " + profile + " needs a frustum");
+            if (profile == "sl" && !region.frame) breaks("profile sl needs a coordinateFrame");
+            if (document.version.starts_with("1") && !region.alpha) breaks("MPCDI 1.0 needs an alphaMap");
+            if (region.warp && !region.warp->origin.empty()) origins.insert(region.warp->origin);
+        }
+    if (origins.size() > 1) broken.emplace_back("files: regions with different values of originOf3DData");
+    return broken;
+}
+
+}  // namespace curvewall
