@@ -94,7 +94,8 @@ std::optional<glm::ivec2> gridOf(const std::string& text) {
 }
 
 ConversionRequest requestOf(const ConvertCommand& command, const Wall& wall) {
-    ConversionRequest request{.kind = kindOf(command)};
+    ConversionRequest request;
+    request.kind = kindOf(command);
     request.inputPath = command.wall.path;
     request.displays = chosenDisplays(wall, command.display);
     request.grid = gridOf(command.grid);

@@ -177,7 +177,7 @@ private:
     void measure(const std::string& path, std::vector<ConvertedDisplay>& converted) const {
         const Wall read = readWall(path);
         for (size_t i = 0; i < converted.size(); ++i)
-            converted[i].error = conversionError(*request_.displays[i], findDisplay(read, converted[i].name));
+            converted[i].error = conversionError(*request_.displays[i], read.displays.at(i));
     }
 
     const Wall& wall_;
