@@ -28,9 +28,12 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
     return files;
 }
 
+// Other calibrations need a wall file: their folders are full of maps that are no walls.
 bool isWallFile(const fs::path& path) {
     std::error_code error;
-    if (path.extension() != ".json" || !fs::is_regular_file(path, error)) return false;
+    if (!fs::is_regular_file(path, error)) return false;
+    if (path.extension() == ".mpcdi") return true;
+    if (path.extension() != ".json") return false;
     std::ifstream file(path, std::ios::binary);
     const nlohmann::json root = nlohmann::json::parse(file, nullptr, false);
     if (root.is_discarded()) spdlog::warn("{} is left out: it is not JSON", path.string());
@@ -86,8 +89,13 @@ Library openLibrary(const std::string& wallsFolder, const std::string& scenesFol
     for (const fs::path& path : filesIn(wallsFolder)) {
         if (!isWallFile(path)) continue;
         try {
-            library.walls.emplace(path.stem().string(),
-                                  std::make_shared<const Wall>(readWall(path.string())));
+            auto wall = std::make_shared<const Wall>(readWall(path.string()));
+            for (const Display& display : wall->displays)
+                for (const std::string& warning : display.warnings)
+                    spdlog::warn("{}: {}: {}", path.string(), display.name, warning);
+            if (const auto [entry, added] = library.walls.emplace(path.stem().string(), std::move(wall));
+                !added)
+                spdlog::warn("{} is left out: another wall has the same name", path.string());
         } catch (const std::exception& error) {
             spdlog::warn("{} is left out: {}", path.string(), error.what());
         }

@@ -52,12 +52,17 @@ glm::vec3 filteredAt(const NumberMap& map, glm::dvec2 fraction) {
 
 std::vector<glm::vec3> readBlendPicture(const FileBytes& file, glm::ivec2 sizePx, double gamma,
                                         const std::string& place, Decisions& decisions) {
-    const NumberMap map = readNumberMap(file);
-    if (checkTexels(file.path, map))
-        decisions.warn(fmt::format("{}: the alpha channel of {} is not used", place, file.name()));
+    return linearPicture(readNumberMap(file), file.path, sizePx, gamma, place, decisions);
+}
+
+std::vector<glm::vec3> linearPicture(const NumberMap& map, const std::string& path, glm::ivec2 sizePx,
+                                     double gamma, const std::string& place, Decisions& decisions) {
+    const std::string name = FileBytes{path, {}}.name();
+    if (checkTexels(path, map))
+        decisions.warn(fmt::format("{}: the alpha channel of {} is not used", place, name));
     if (map.sizePx != sizePx)
         decisions.warn(fmt::format("{}: {} has {} x {} pixels and the display {} x {}; it is resampled",
-                                   place, file.name(), map.sizePx.x, map.sizePx.y, sizePx.x, sizePx.y));
+                                   place, name, map.sizePx.x, map.sizePx.y, sizePx.x, sizePx.y));
     std::vector<glm::vec3> light(static_cast<size_t>(sizePx.x) * static_cast<size_t>(sizePx.y));
     const glm::vec3 exponent(static_cast<float>(gamma));
     parallelRanges(sizePx.y, [&](int begin, int end) {

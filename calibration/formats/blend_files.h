@@ -3,6 +3,7 @@
 // black level maps.
 
 #include "calibration/files/file_bytes.h"
+#include "calibration/files/map_file.h"
 #include "calibration/formats/decisions.h"
 
 #include <glm/vec2.hpp>
@@ -18,5 +19,9 @@ namespace curvewall {
 // with `place`. Throws InputError for what is no picture of numbers from 0 to 1.
 std::vector<glm::vec3> readBlendPicture(const FileBytes& file, glm::ivec2 sizePx, double gamma,
                                         const std::string& place, Decisions& decisions);
+
+// The same for a picture that is in memory; `path` is for messages.
+std::vector<glm::vec3> linearPicture(const NumberMap& map, const std::string& path, glm::ivec2 sizePx,
+                                     double gamma, const std::string& place, Decisions& decisions);
 
 }  // namespace curvewall

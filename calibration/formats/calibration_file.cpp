@@ -1,11 +1,13 @@
 #include "calibration/formats/calibration_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/camera_yaml.h"
 #include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
 #include "calibration/formats/mesh_file.h"
 #include "calibration/formats/mpcdi_file.h"
 #include "calibration/formats/sgct_file.h"
+#include "calibration/formats/vioso_file.h"
 
 #include <fmt/format.h>
 
@@ -34,8 +36,10 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 constexpr std::initializer_list<Format> kFormats{
     {"a configuration of SGCT", isSgctFile, readSgctFile},
     {"an MPCDI archive or manifest", isMpcdi, readMpcdi},
+    {"a VIOSO warp file", isViosoFile, readViosoFile},
     {"a PFM or EXR map", isMapFile, readMapFile},
     {"a warp mesh", isMeshFile, readMeshWall},
+    {"a camera in YAML", isCameraYaml, readCameraYaml},
 };
 
 // The first one that claims the file.

@@ -144,8 +144,9 @@ MapMeaning decideMeaning(const MapFile& map, MapDirection direction, bool isOffs
     else
         meaning.alignment = decideAlignment(map, decisions);
     if (isForward)
-        meaning.cells = decideCells(map.numbers.sizePx, isOffset ? CellCut::firstToLast : CellCut::across,
-                                    "as SGCT cuts the cells of such a map", decisions);
+        meaning.cells =
+            decideCells(map.numbers.sizePx, isOffset ? CellCut::firstToLast : CellCut::alternating,
+                        "as SGCT cuts the cells of such a map", decisions);
     return meaning;
 }
 
@@ -154,7 +155,7 @@ PointFrame decideFrame(const KnownFrame& known, const MapSurvey& survey, Decisio
     if (known.unitM) {
         frame.unitM = *known.unitM;
     } else {
-        constexpr double kMostM = 100, kMostCm = 2000;
+        constexpr double kMostM = 100, kMostCm = 1000;
         const double guess = survey.extent <= kMostM ? 1 : survey.extent <= kMostCm ? 0.01 : 0.001;
         frame.unitM =
             decisions.choose<double>("units",

@@ -8,7 +8,6 @@
 #include "calibration/formats/map_decisions.h"
 #include "calibration/formats/mpcdi_document.h"
 #include "calibration/formats/mpcdi_frustum.h"
-#include "calibration/formats/source_picture.h"
 
 #include <fmt/format.h>
 #include <glm/vector_relational.hpp>
@@ -92,7 +91,10 @@ ProjectionPtr readFlat(const RegionContext& c, Display& display, Decisions& deci
                       fmt::format("{} x {}", region.size.x, region.size.y));
     const glm::ivec2 bufferPx = c.buffer.sizePx.value_or(
         glm::max(glm::ivec2(glm::round(glm::dvec2(display.sizePx) / region.size)), glm::ivec2(1)));
-    const SourcePicture source = decideSource(c.request, bufferPx, decisions);
+    const SourcePicture source =
+        c.request.source
+            ? *c.request.source
+            : decideSource(false, "profile 2d does not say what its media show", bufferPx, decisions);
     const PictureRect rect{region.origin, region.size};
     display.projectionType = "camera_texture";
     if (region.warp)

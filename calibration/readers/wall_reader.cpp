@@ -149,7 +149,11 @@ Wall readWall(const std::string& path, std::optional<glm::ivec2> sizePx) {
     const FileBytes file = readFile(path, "a wall file or a calibration");
     if (isCalibration(file) || !looksLikeJson(file)) return readBareCalibration(file, sizePx);
     if (sizePx) throw UsageError(path + " is a wall file, which has the size of each display");
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    return readWallFile(file);
+}
+
+Wall readWallFile(const FileBytes& file) {
+    const std::filesystem::path folder = std::filesystem::path(file.path).parent_path();
     return readJson(file, [&](JsonFields fields) { return readFields(std::move(fields), folder); });
 }
 

@@ -92,7 +92,8 @@ void expectRays(const Case& c, const Display& display) {
 }
 
 void expectAssumptions(const Case& c, const Display& display) {
-    for (const auto& [key, value] : c.content.value("assumptions", json::object()).items()) {
+    const json assumptions = c.content.value("assumptions", json::object());
+    for (const auto& [key, value] : assumptions.items()) {
         const auto found = std::ranges::find(display.assumptions, key, &Assumption::key);
         ASSERT_NE(found, display.assumptions.end()) << "nothing was assumed of " << key;
         EXPECT_EQ(found->value, value.get<std::string>()) << key;
