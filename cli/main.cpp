@@ -40,6 +40,7 @@ int runSubcommand(int argc, char** argv) {
     app.set_version_flag("--version", "curvewall 0.1.0");
     curvewall::addRenderCommand(app);
     curvewall::addInspectCommand(app);
+    curvewall::addConvertCommand(app);
     curvewall::addServeCommand(app);
     if (argc > 1 && argv[1][0] != '-') requireKnownSubcommand(app, argv[1]);
     try {

@@ -1,6 +1,7 @@
 #include "calibration/formats/calibration_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/camera_yaml.h"
 #include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
 #include "calibration/formats/mesh_file.h"
@@ -36,6 +37,7 @@ constexpr std::initializer_list<Format> kFormats{
     {"a VIOSO warp file", isViosoFile, readViosoFile},
     {"a PFM or EXR map", isMapFile, readMapFile},
     {"a warp mesh", isMeshFile, readMeshWall},
+    {"a camera in YAML", isCameraYaml, readCameraYaml},
 };
 
 // The first one that claims the file.
