@@ -53,6 +53,8 @@ std::vector<WarpVertex> warpVertices(const MeshCalibration& mesh, glm::dvec2 siz
 
 SourcePicture sourceOf(const MeshCalibration& mesh, const CalibrationRequest& request, glm::ivec2 sizePx,
                        Decisions& decisions) {
+    if (mesh.frustum && request.source)
+        decisions.warn("source: the file tells itself what its picture shows, and that counts");
     if (mesh.frustum) return {sizePx, std::make_shared<FrustumProjection>(*mesh.frustum, sizePx)};
     if (request.source) return *request.source;
     return decideSource(mesh.bendsFisheye,
