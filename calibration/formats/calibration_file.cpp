@@ -33,10 +33,8 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 }
 
 constexpr std::initializer_list<Format> kFormats{
-    {"an MPCDI archive or manifest", isMpcdi, readMpcdi},
-    {"a VIOSO warp file", isViosoFile, readViosoFile},
-    {"a PFM or EXR map", isMapFile, readMapFile},
-    {"a warp mesh", isMeshFile, readMeshWall},
+    {"an MPCDI archive or manifest", isMpcdi, readMpcdi}, {"a VIOSO warp file", isViosoFile, readViosoFile},
+    {"a PFM or EXR map", isMapFile, readMapFile},         {"a warp mesh", isMeshFile, readMeshWall},
     {"a camera in YAML", isCameraYaml, readCameraYaml},
 };
 

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 namespace curvewall {
