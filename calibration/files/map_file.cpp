@@ -27,16 +27,16 @@ constexpr std::string_view kExrStart("\x76\x2f\x31\x01", 4);
 
 struct Picture {
     std::string_view start;
-    const char* name;  // its extension calls for the reader
+    const char* format;  // as OpenImageIO calls it
 };
 
 constexpr std::array<Picture, 6> kPictures{{
-    {kExrStart, "map.exr"},
-    {"\x89PNG\r\n", "map.png"},
-    {{"II*\0", 4}, "map.tif"},
-    {{"MM\0*", 4}, "map.tif"},
-    {"\xff\xd8\xff", "map.jpg"},
-    {"BM", "map.bmp"},
+    {kExrStart, "openexr"},
+    {"\x89PNG\r\n", "png"},
+    {{"II*\0", 4}, "tiff"},
+    {{"MM\0*", 4}, "tiff"},
+    {"\xff\xd8\xff", "jpeg"},
+    {"BM", "bmp"},
 }};
 
 const Picture* pictureOf(std::string_view bytes) {
@@ -106,8 +106,10 @@ NumberMap readNumberMap(const FileBytes& file) {
     OIIO::Filesystem::IOMemReader reader(const_cast<char*>(file.bytes.data()), file.bytes.size());
     const OIIO::ImageSpec options = asStored();
     // Not the name of the file, which might call for a reader of another format.
-    const auto in = OIIO::ImageInput::open(picture->name, &options, &reader);
-    if (!in) throw InputError(file.path, "", "a readable image", OIIO::geterror());
+    const auto in = OIIO::ImageInput::create(picture->format);
+    OIIO::ImageSpec spec;
+    if (!in || !in->set_ioproxy(&reader) || !in->open(file.path, spec, options))
+        throw InputError(file.path, "", "a readable image", in ? in->geterror() : OIIO::geterror());
     return readPixels(*in, file.path, file.bytes.size());
 }
 

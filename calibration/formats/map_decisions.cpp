@@ -100,6 +100,9 @@ bool looksLikeOffsets(const MapSurvey& s) {
 Alignment decideAlignment(const MapFile& map, Decisions& decisions) {
     const glm::ivec2 nodes = map.numbers.sizePx;
     const bool isCoarse = 2 * nodes.x <= map.sizePx.x && 2 * nodes.y <= map.sizePx.y;
+    if (isCoarse)
+        decisions.choose<bool>("interpolation", {{"bilinear", true}}, true,
+                               "textures are read so; between its nodes nothing was measured");
     return decisions.choose<Alignment>(
         "node_alignment", {{"centers", Alignment::centers}, {"corners", Alignment::corners}},
         isCoarse ? Alignment::corners : Alignment::centers,
@@ -144,8 +147,9 @@ MapMeaning decideMeaning(const MapFile& map, MapDirection direction, bool isOffs
     else
         meaning.alignment = decideAlignment(map, decisions);
     if (isForward)
-        meaning.cells = decideCells(map.numbers.sizePx, isOffset ? CellCut::firstToLast : CellCut::across,
-                                    "as SGCT cuts the cells of such a map", decisions);
+        meaning.cells =
+            decideCells(map.numbers.sizePx, isOffset ? CellCut::firstToLast : CellCut::alternating,
+                        "as SGCT cuts the cells of such a map", decisions);
     return meaning;
 }
 
@@ -154,7 +158,7 @@ PointFrame decideFrame(const KnownFrame& known, const MapSurvey& survey, Decisio
     if (known.unitM) {
         frame.unitM = *known.unitM;
     } else {
-        constexpr double kMostM = 100, kMostCm = 2000;
+        constexpr double kMostM = 100, kMostCm = 1000;
         const double guess = survey.extent <= kMostM ? 1 : survey.extent <= kMostCm ? 0.01 : 0.001;
         frame.unitM =
             decisions.choose<double>("units",

@@ -3,7 +3,6 @@
 #include "calibration/errors.h"
 #include "calibration/files/pfm_file.h"
 #include "calibration/formats/map_decisions.h"
-#include "calibration/formats/source_picture.h"
 
 #include <fmt/format.h>
 
@@ -141,8 +140,11 @@ Wall readMapFile(const FileBytes& file, const FindFile&, const CalibrationReques
             decideMeaning(described, kind == MapKind::inverse ? MapDirection::inverse : MapDirection::forward,
                           isOffset, decisions);
         display.projectionType = kind == MapKind::inverse ? "camera_texture" : "warp_mesh";
-        display.projection = projectionOfMap(map, meaning, display.sizePx,
-                                             decideSource(request, display.sizePx, decisions), file.path);
+        const SourcePicture source = request.source
+                                         ? *request.source
+                                         : decideSource(false, "the map does not say what its picture shows",
+                                                        display.sizePx, decisions);
+        display.projection = projectionOfMap(map, meaning, display.sizePx, source, file.path);
     }
     listDecisions(decisions, display);
     wall.displays.push_back(std::move(display));

@@ -154,7 +154,7 @@ std::optional<NumberMap> takeBitmap(Reader& in, const FileBytes& file, const std
         const int64_t stored = height < 0 ? y : rows - 1 - y;
         const std::string_view row = data.substr(static_cast<uint64_t>(stored) * pitch, pitch);
         for (uint64_t x = 0; x < static_cast<uint64_t>(width); ++x)
-            for (const uint64_t channel : {2, 1, 0})
+            for (const uint64_t channel : {uint64_t{2}, uint64_t{1}, uint64_t{0}})
                 map.values.push_back(sampleAt(row, (x * samples + channel) * sampleBytes, sampleBytes));
     }
     return map;

@@ -3,7 +3,6 @@
 #include "calibration/errors.h"
 #include "calibration/formats/blend_files.h"
 #include "calibration/formats/map_decisions.h"
-#include "calibration/formats/source_picture.h"
 #include "calibration/formats/vioso_blocks.h"
 #include "calibration/formats/vioso_config.h"
 #include "calibration/projections/frustum.h"
@@ -64,8 +63,9 @@ PointFrame pointFrame(const WarpContext& c, const MapSurvey& survey, Decisions& 
 
 SourcePicture pictureOf(const WarpContext& c, glm::ivec2 sizePx, Decisions& decisions) {
     const auto& view = c.view;
-    if (c.request.source || !view || !view->fovDeg || view->isAutomatic)
-        return decideSource(c.request, sizePx, decisions);
+    if (c.request.source) return *c.request.source;
+    if (!view || !view->fovDeg || view->isAutomatic)
+        return decideSource(false, "the file does not say what its content shows", sizePx, decisions);
     const glm::dvec3 direction = glm::radians(view->directionDeg.value_or(glm::dvec3(0)));
     const glm::dvec4 fov = glm::radians(*view->fovDeg);
     try {

@@ -20,7 +20,7 @@ struct ConversionRequest {
     std::vector<const Display*> displays;  // of the wall
     std::vector<std::string> paths;        // a file for each display; of an archive one for all
     std::string wallPath;                  // the wall file that names them; none beside an archive
-    std::optional<glm::ivec2> grid;        // nodes from border to border instead of one a pixel
+    std::optional<glm::ivec2> grid{};      // nodes from border to border instead of one a pixel
 };
 
 struct ConvertedDisplay {

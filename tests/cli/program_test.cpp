@@ -211,6 +211,39 @@ TEST_F(Program, AnotherEyeIsAnOptionOfRenderAndInspect) {
     EXPECT_NEAR(firstRay(" --eye 0.5,0,1"), (x - 0.5) / std::sqrt((x - 0.5) * (x - 0.5) + y * y + 4), 1e-6);
 }
 
+TEST_F(Program, ConvertWritesEveryFormatAndSaysWhatItCosts) {
+    struct Case {
+        std::string out, options, wallFile;
+        std::vector<std::string> files;
+        double mostPx;
+    };
+    for (const Case& c : std::vector<Case>{
+             {"map.exr", "", "map.json", {"map-left.exr", "map-right.exr"}, 0.01},
+             {"{display}-points.pfm", "", "wall-points.json", {"left-points.pfm", "right-points.pfm"}, 0.01},
+             {"flat.exr", "--as camera-texture --display right", "flat.json", {"flat.exr"}, 0.01},
+             {"mesh.data", "", "mesh.json", {"mesh-left.data", "mesh-right.data"}, 0.3},
+             {"mesh.txt", "--as bourke --grid 9x7", "mesh.json", {"mesh-left.txt", "mesh-right.txt"}, 20},
+             {"all.mpcdi", "", "", {"all.mpcdi"}, 0.01},
+         }) {
+        SCOPED_TRACE(c.out);
+        const Outcome outcome = run("", "convert --json " + wall() + " '" + file(c.out) + "' " + c.options);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.output;
+        const json report = json::parse(outcome.output);
+        for (const json& display : report["displays"]) {
+            EXPECT_LT(display["conversion_error_px"]["max"], c.mostPx);
+            EXPECT_LE(display["conversion_error_px"]["mean"], display["conversion_error_px"]["max"]);
+            EXPECT_EQ(display["holes_gained"], 0);
+            EXPECT_EQ(display["blend_difference"], 0);
+        }
+        for (const std::string& name : c.files) EXPECT_TRUE(std::ifstream(file(name)).good()) << name;
+        EXPECT_EQ(report.value("wall_file", ""), c.wallFile.empty() ? "" : file(c.wallFile));
+        const Outcome read = run("", "inspect --read-only " + file(c.wallFile.empty() ? c.out : c.wallFile));
+        EXPECT_EQ(read.exitCode, 0) << read.output;
+    }
+    EXPECT_THAT(run("", "convert " + wall() + " " + file("map.exr")).output,
+                HasSubstr("error of the conversion over every pixel: "));
+}
+
 TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
     EXPECT_EQ(run("", "--help").exitCode, 0);
     EXPECT_EQ(run("", "--version").exitCode, 0);
@@ -250,6 +283,19 @@ TEST_F(Program, ExitCodesTellWhoHasToDoSomething) {
              {"render " + wall() + " --scene " + wall(), 3, "wall.json"},
              {render + "--out " + file("no/such/folder.png"), 1, "there is no folder"},
              {"serve " + file("none.json"), 3, "none.json"},
+             {"convert " + wall(), 2, "OUT"},
+             {"convert " + wall() + " " + file("a.gif"), 2, ".mpcdi"},
+             {"convert " + wall() + " " + file("a.exr") + " --as magic", 2, "camera-texture"},
+             {"convert " + wall() + " " + file("a.pfm") + " --as camera-texture", 2, ".exr"},
+             {"convert " + wall() + " " + file("a.json") + " --as pfm", 2, ".json"},
+             {"convert " + wall() + " " + file("a.exr") + " --as camera-texture", 2, "surface-map"},
+             {"convert " + wall() + " " + file("a.exr") + " --grid 1x5", 2, "--grid"},
+             {"convert " + wall() + " " + file("a.mpcdi") + " --grid 5x5", 2, "--grid"},
+             {"convert " + wall() + " " + file("a.exr") + " --display middle", 2, "left, right"},
+             {"convert " + wall() + " " + file("a.exr") + " --eye 0,0,2", 2, "not inside the cylinder"},
+             {"convert " + wall() + " " + file("wall.exr"), 2, "wall.json is the input"},
+             {"convert " + file("none.json") + " " + file("a.exr"), 3, "none.json"},
+             {"convert " + wall() + " " + file("no/such/folder.exr"), 1, "there is no folder"},
          }) {
         const Outcome outcome = run("", c.arguments);
         EXPECT_EQ(outcome.exitCode, c.exitCode) << c.arguments << "\n" << outcome.output;
