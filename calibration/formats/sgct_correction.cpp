@@ -134,7 +134,8 @@ SgctShown bentByMap(const SgctContext& context, const FileBytes& file, Decisions
     } else {
         map = leftHalf(map, file);
         meaning.direction = MapDirection::forward;
-        meaning.cells = decideCells(map.sizePx, CellCut::across, "SGCT draws rows of triangles", decisions);
+        meaning.cells = decideCells(map.sizePx, CellCut::alternating,
+                                    "SGCT draws a strip of triangles that runs to and fro", decisions);
     }
     return {{projectionOfMap(map, meaning, context.sizePx, source, file.path), {}}, "camera_texture"};
 }
@@ -144,9 +145,9 @@ SgctShown bentByMap(const SgctContext& context, const FileBytes& file, Decisions
 SgctShown mirrorShown(const SgctContext& context, const SgctMirror& mirror, Decisions& decisions) {
     constexpr double kFacePx = 1024;
     const std::vector<SgctFace> faces = sgctMirrorFaces(mirror, glm::dvec2(kFacePx));
-    std::vector<ProjectionPtr> pictures;
-    for (const SgctFace& face : faces) pictures.push_back(face.projection);
-    const auto atlas = std::make_shared<PictureAtlas>(pictures, glm::dvec2(kFacePx));
+    std::vector<ProjectionPtr> pictures(faces.size());
+    std::ranges::transform(faces, pictures.begin(), &SgctFace::projection);
+    const auto atlas = std::make_shared<PictureAtlas>(std::move(pictures), glm::dvec2(kFacePx));
     const std::array<std::pair<const char*, std::string>, 4> files{{{"bottom", mirror.bottomMesh},
                                                                     {"left", mirror.leftMesh},
                                                                     {"right", mirror.rightMesh},

@@ -169,10 +169,14 @@ std::optional<glm::ivec2> sizeOf(const FileBytes& file, const Part& part) {
     const glm::dvec2 windowPx = glm::dvec2(*part.window->sizePx) * shareOfOneEye(*part.window);
     const glm::dvec2 sizePx = glm::round((part.viewport->position + part.viewport->size) * windowPx) -
                               glm::round(part.viewport->position * windowPx);
+    // Larger ones are mistakes, and their masks would take gigabytes.
+    constexpr double kMostPixels = 1 << 26;
     if (!glm::all(glm::greaterThanEqual(sizePx, glm::dvec2(1))) ||
-        !glm::all(glm::lessThanEqual(sizePx, glm::dvec2(static_cast<double>(kMostPx)))))
+        !glm::all(glm::lessThanEqual(sizePx, glm::dvec2(static_cast<double>(kMostPx)))) ||
+        sizePx.x * sizePx.y > kMostPixels)
         throw InputError(file.path, part.place() + ".size",
-                         fmt::format("a viewport of 1 to {} pixels in both directions", kMostPx),
+                         fmt::format("a viewport of 1 to {} pixels in both directions and at most {} in all",
+                                     kMostPx, kMostPixels),
                          fmt::format("{} x {}", sizePx.x, sizePx.y));
     return glm::ivec2(sizePx);
 }
