@@ -6,6 +6,7 @@
 #include "calibration/formats/mesh_calibration.h"
 #include "calibration/formats/mesh_file.h"
 #include "calibration/formats/mpcdi_file.h"
+#include "calibration/formats/sgct_file.h"
 #include "calibration/formats/vioso_file.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
 }
 
 constexpr std::initializer_list<Format> kFormats{
+    {"a configuration of SGCT", isSgctFile, readSgctFile},
     {"an MPCDI archive or manifest", isMpcdi, readMpcdi},
     {"a VIOSO warp file", isViosoFile, readViosoFile},
     {"a PFM or EXR map", isMapFile, readMapFile},

@@ -100,6 +100,9 @@ bool looksLikeOffsets(const MapSurvey& s) {
 Alignment decideAlignment(const MapFile& map, Decisions& decisions) {
     const glm::ivec2 nodes = map.numbers.sizePx;
     const bool isCoarse = 2 * nodes.x <= map.sizePx.x && 2 * nodes.y <= map.sizePx.y;
+    if (isCoarse)
+        decisions.choose<bool>("interpolation", {{"bilinear", true}}, true,
+                               "textures are read so; between its nodes nothing was measured");
     return decisions.choose<Alignment>(
         "node_alignment", {{"centers", Alignment::centers}, {"corners", Alignment::corners}},
         isCoarse ? Alignment::corners : Alignment::centers,

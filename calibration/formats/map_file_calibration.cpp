@@ -140,10 +140,10 @@ Wall readMapFile(const FileBytes& file, const FindFile&, const CalibrationReques
             decideMeaning(described, kind == MapKind::inverse ? MapDirection::inverse : MapDirection::forward,
                           isOffset, decisions);
         display.projectionType = kind == MapKind::inverse ? "camera_texture" : "warp_mesh";
-        const SourcePicture source =
-            request.source ? *request.source
-                           : decideSource(false, "the map does not say what its picture shows",
-                                          display.sizePx, decisions);
+        const SourcePicture source = request.source
+                                         ? *request.source
+                                         : decideSource(false, "the map does not say what its picture shows",
+                                                        display.sizePx, decisions);
         display.projection = projectionOfMap(map, meaning, display.sizePx, source, file.path);
     }
     listDecisions(decisions, display);

@@ -63,9 +63,9 @@ RegionMap readMap(const RegionContext& c, const char* element, const MpcdiWarp& 
 }
 
 // Profiles 2d and 3d: positions in a picture, or offsets as Evans & Sutherland wrote them in 2017.
-ProjectionPtr warped(const RegionContext& c, const RegionMap& map, const MpcdiWarp& warp, glm::ivec2 sizePx,
+ProjectionPtr warped(const RegionContext& c, const RegionMap& map, const MpcdiWarp& warp, Display& display,
                      const PictureRect& rect, const SourcePicture& source, Decisions& decisions) {
-    const MapFile described = map.described(sizePx);
+    const MapFile described = map.described(display.sizePx);
     const MapSurvey& s = described.survey;
     const bool isOffset = decisions.choose<bool>(
         "map_values", {{"absolute", false}, {"offset", true}}, looksLikeOffsets(s),
@@ -81,7 +81,8 @@ ProjectionPtr warped(const RegionContext& c, const RegionMap& map, const MpcdiWa
                                    warp.interpolation));
     MapMeaning meaning = decideMeaning(described, direction, isOffset, decisions);
     meaning.sourceRect = rect;
-    return projectionOfMap(map.numbers, meaning, sizePx, source, map.file.path);
+    display.projectionType = direction == MapDirection::forward ? "warp_mesh" : "camera_texture";
+    return projectionOfMap(map.numbers, meaning, display.sizePx, source, map.file.path);
 }
 
 ProjectionPtr readFlat(const RegionContext& c, Display& display, Decisions& decisions) {
@@ -98,8 +99,8 @@ ProjectionPtr readFlat(const RegionContext& c, Display& display, Decisions& deci
     const PictureRect rect{region.origin, region.size};
     display.projectionType = "camera_texture";
     if (region.warp)
-        return warped(c, readMap(c, "geometryWarpFile", *region.warp, 2), *region.warp, display.sizePx, rect,
-                      source, decisions);
+        return warped(c, readMap(c, "geometryWarpFile", *region.warp, 2), *region.warp, display, rect, source,
+                      decisions);
     // Without a map the region shows its part of the buffer as it is.
     const NumberMap corners{{2, 2}, 2, false, {0, 0, 1, 0, 0, 1, 1, 1}};
     return projectionOfMap(corners, {.alignment = Alignment::corners, .sourceRect = rect}, display.sizePx,
@@ -112,8 +113,7 @@ ProjectionPtr readView(const RegionContext& c, Display& display, const MpcdiWarp
                                 pictureOfRegion(c.region, display.sizePx, c.document.path, decisions)};
     display.projectionType = c.region.fisheye ? "radial" : "planar";
     if (!warp) return picture.projection;
-    display.projectionType = "camera_texture";
-    return warped(c, readMap(c, element, *warp, 2), *warp, display.sizePx, {}, picture, decisions);
+    return warped(c, readMap(c, element, *warp, 2), *warp, display, {}, picture, decisions);
 }
 
 ProjectionPtr readSurface(const RegionContext& c, Display& display, glm::dvec3 eyeM, Decisions& decisions) {

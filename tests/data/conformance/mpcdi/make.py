@@ -145,7 +145,7 @@ FILES = fileset(warp("map.pfm"))
 zipped("map_3d", "In profile 3d the map tells which position of the frustum's picture a pixel shows, v from the top.",
        {"mpcdi.xml": manifest("3d", region(frustum()), FILES), "map.pfm": pfm(PART)},
        assumptions={"map_values": "absolute", "row_order": "bottom_first", "source_v": "down",
-                    "node_alignment": "corners"},
+                    "node_alignment": "corners", "interpolation": "bilinear"},
        rays=[((0, 0), view(0.1, 0.2)), ((64, 32), view(0.9, 0.6)), ((32, 16), view(0.5, 0.4))])
 zipped("map_third_channel_nan", "Maps with NaN in the third channel, as Evans & Sutherland write them, begin with the "
        "top row and count v upwards.",
@@ -317,9 +317,9 @@ def patched(members, offset, value, form="<I"):
 broken("declared_huge", "Members of more than any calibration needs are refused before they are unpacked.",
        patched({"mpcdi.xml": PLAIN}, 24, 0xF0000000), "together")
 broken("declared_small", "A member that unpacks to more than the archive states is refused.",
-       patched({"mpcdi.xml": PLAIN}, 24, 100), "")
+       patched({"mpcdi.xml": PLAIN}, 24, 100), "as the archive states")
 encrypted = bytearray(patched({"mpcdi.xml": PLAIN}, 8, 1, "<H"))
 encrypted[6] |= 1
 broken("encrypted", "An encrypted member is refused.", bytes(encrypted), "not encrypted")
 broken("packing", "Members packed in another way than deflate are refused.",
-       patched({"mpcdi.xml": PLAIN}, 10, 93, "<H"), "")
+       patched({"mpcdi.xml": PLAIN}, 10, 93, "<H"), "packed by deflate")
