@@ -178,7 +178,7 @@ void addConvertCommand(CLI::App& app) {
     convert->add_option("--display", command->display, "Display of the wall; all of them without it");
     convert->add_option("--grid", command->grid,
                         "COLUMNSxROWS of nodes from border to border; without it one a pixel, and for bourke "
-                        "as many as 0.25 px need, 512 columns at most");
+                        "as many as 0.25 px need, up to 512 columns");
     convert->add_option("--eye", command->eye,
                         "Where the eye is, x,y,z in wall coordinates, metres; the wall's own without it");
     convert->add_flag("--json", command->asJson, "Report as JSON");

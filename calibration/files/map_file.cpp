@@ -104,7 +104,10 @@ NumberMap readNumberMap(const FileBytes& file) {
         throw InputError(file.path, "", "a PFM, EXR, PNG, TIFF, JPEG or BMP",
                          "a file that begins like none of them");
     OIIO::Filesystem::IOMemReader reader(const_cast<char*>(file.bytes.data()), file.bytes.size());
-    const OIIO::ImageSpec options = asStored();
+    OIIO::ImageSpec options = asStored();
+    // The PNG reader looks for it only here.
+    OIIO::Filesystem::IOProxy* proxy = &reader;
+    options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     // Not the name of the file, which might call for a reader of another format.
     const auto in = OIIO::ImageInput::create(picture->format);
     OIIO::ImageSpec spec;

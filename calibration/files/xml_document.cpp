@@ -185,6 +185,13 @@ std::optional<std::string> XmlElement::attribute(std::string_view name) const {
     return std::nullopt;
 }
 
+std::vector<std::pair<std::string, std::string>> XmlElement::attributes() const {
+    std::vector<std::pair<std::string, std::string>> attributes;
+    for (const pugi::xml_attribute attribute : pugi::xml_node(node_).attributes())
+        attributes.emplace_back(attribute.name(), trimmed(attribute.value()));
+    return attributes;
+}
+
 double XmlElement::number() const {
     const auto number = parseNumber(text());
     if (!number) throw error("a finite number", "\"" + text() + "\"");

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pugi {
@@ -34,6 +35,7 @@ public:
 
     std::string text() const;  // what is directly in the element, without that of its children
     std::optional<std::string> attribute(std::string_view name) const;
+    std::vector<std::pair<std::string, std::string>> attributes() const;  // names as the file has them
 
     // Throws InputError for what is there and is no finite number.
     double number() const;

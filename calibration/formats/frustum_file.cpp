@@ -47,28 +47,22 @@ struct Sides {
 
 double tangent(double deg) { return std::tan(glm::radians(deg)); }
 
-// The file's width or height next to what it is if the two angles have signs, and if they are magnitudes.
-// Above 0 where it speaks for signs, below where it speaks for magnitudes.
-int vote(const Values& values, const char* extent, double low, double high) {
-    const auto found = values.find(extent);
-    const bool ifSigned = high > low, ifMagnitudes = high > -low;  // the other way there is no picture
-    if (ifSigned != ifMagnitudes) return ifSigned ? 1 : -1;
-    if (found == values.end() || !(found->second > 0)) return 0;
-    const auto fits = [&](double tan) { return std::abs(tan - found->second) < kSameTangent; };
-    return (fits(tangent(high) - tangent(low)) ? 1 : 0) - (fits(tangent(high) + tangent(low)) ? 1 : 0);
-}
-
+// Without a width that decides, left does: it is left of the axis in nearly every picture. Height decides
+// nothing, since the angle of the bottom is of either sign in both kinds of file, and SGCT's exports subtract
+// magnitudes.
 bool decideSigned(const Values& values, const Sides& sides, Decisions& decisions) {
-    // Left and right are asked first: the angle of the bottom is of either sign in both kinds of file.
-    bool isSigned = sides.left < 0;
-    std::string evidence = fmt::format("left is {}", sides.left);
-    if (const int horizontal = vote(values, "width", sides.left, sides.right); horizontal != 0) {
-        isSigned = horizontal > 0;
-        evidence = fmt::format("left is {}, right {}", sides.left, sides.right);
-        if (const auto width = values.find("width"); width != values.end())
-            evidence += fmt::format(", width {} where the tangents differ by {:.6f} and add up to {:.6f}",
-                                    width->second, tangent(sides.right) - tangent(sides.left),
-                                    tangent(sides.right) + tangent(sides.left));
+    bool isSigned = sides.left < 0 || (sides.left == 0 && sides.bottom < 0);
+    std::string evidence =
+        fmt::format("left is {}, right {}, bottom {}", sides.left, sides.right, sides.bottom);
+    if (const auto width = values.find("width"); width != values.end()) {
+        const double difference = tangent(sides.right) - tangent(sides.left);
+        const double sum = tangent(sides.right) + tangent(sides.left);
+        const auto fits = [&](double tan) {
+            return tan > kSameTangent && std::abs(tan - width->second) < kSameTangent;
+        };
+        if (fits(difference) != fits(sum)) isSigned = fits(difference);
+        evidence += fmt::format(", width {} where the tangents differ by {:.6f} and add up to {:.6f}",
+                                width->second, difference, sum);
     }
     return decisions.choose("angle_signs", {{"signed", true}, {"magnitudes", false}}, isSigned, evidence);
 }
@@ -95,6 +89,10 @@ std::string usualName(const FileBytes& mesh) {
 }
 
 }  // namespace
+
+bool isFrustumFile(const FileBytes& file) {
+    return lowerCase(file.bytes.substr(0, 128)).find("x;y;z;heading;pitch;bank;") != std::string::npos;
+}
 
 Frustum readFrustumFile(const FileBytes& file, Decisions& decisions) {
     const Values values = valuesOf(file);

@@ -7,7 +7,9 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -123,7 +125,7 @@ private:
 };
 
 bool decideNormalised(const Obj& obj, Decisions& decisions) {
-    glm::dvec2 low(0), high(0);
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const glm::dvec2 place : obj.positions) {
         low = glm::min(low, place);
         high = glm::max(high, place);

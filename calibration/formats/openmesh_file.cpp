@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 namespace curvewall {
@@ -125,6 +127,13 @@ std::optional<glm::ivec2> gridOf(const std::vector<uint32_t>& indices, const Lay
     return glm::ivec2(static_cast<int>(columns), static_cast<int>(layout.vertices / columns));
 }
 
+// Strips of SGCT's converters end with a row that runs backwards, one index short of its last half cell. The
+// same grids in other formats have no hole there.
+bool lacksItsEnd(const std::vector<uint32_t>& indices, glm::ivec2 grid) {
+    const auto columns = static_cast<uint32_t>(grid.x), rows = static_cast<uint32_t>(grid.y);
+    return indices.back() == (rows - 2) * columns && indices[indices.size() - 2] == (rows - 1) * columns + 1;
+}
+
 // Where a strip turns at a border of the grid it goes through triangles of no area: with a vertex twice, or
 // with all three along the border.
 bool isTurn(uint32_t a, uint32_t b, uint32_t c, std::optional<glm::ivec2> grid) {
@@ -152,8 +161,12 @@ bool isSgcFile(const FileBytes& file) { return file.bytes.starts_with(kMagic); }
 MeshCalibration readSgcFile(const FileBytes& file, Decisions& decisions) {
     const Layout layout = layoutOf(file);
     MeshCalibration mesh{.vertices = verticesOf(file, layout), .frustum = frustumOf(file, decisions)};
-    const std::vector<uint32_t> indices = indicesOf(file, layout);
+    std::vector<uint32_t> indices = indicesOf(file, layout);
     const auto grid = gridOf(indices, layout);
+    if (grid && lacksItsEnd(indices, *grid) &&
+        decisions.choose("strip_end", {{"completed", true}, {"as_listed", false}}, true,
+                         "the strip covers its grid but for the half of the last cell"))
+        indices.push_back(static_cast<uint32_t>((grid->y - 1) * grid->x));
     const bool isBilinear =
         grid && decisions.choose("interpolation", {{"triangles_listed", false}, {"bilinear", true}}, false,
                                  "the file lists its triangles");

@@ -67,12 +67,13 @@ MeshCalibration readSimcadFile(const FileBytes& file, Decisions& decisions) {
     const int side = sideOf(*definition, x, y);
 
     MeshCalibration mesh{.sizePx = sizeOf(x.rangePx, y.rangePx), .aspect = x.rangePx / y.rangePx};
-    for (size_t i = 0; i < x.offsetsPx.size(); ++i) {
-        const glm::dvec2 node(static_cast<double>(i % static_cast<size_t>(side)) / (side - 1),
-                              static_cast<double>(i / static_cast<size_t>(side)) / (side - 1));
-        const glm::dvec2 offset(x.offsetsPx[i] / x.rangePx, y.offsetsPx[i] / y.rangePx);
-        mesh.vertices.push_back(vertexIfValid({node + offset, node}));
-    }
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const size_t i = mesh.vertices.size();
+            const glm::dvec2 node = glm::dvec2(column, row) / (side - 1.0);
+            const glm::dvec2 offset(x.offsetsPx[i] / x.rangePx, y.offsetsPx[i] / y.rangePx);
+            mesh.vertices.push_back(vertexIfValid({node + offset, node}));
+        }
     mesh.cells = decideCells(glm::ivec2(side), CellCut::alternating,
                              "SGCT draws the grid as one strip of triangles that runs to and fro", decisions);
     return mesh;

@@ -128,7 +128,7 @@ private:
     Written writeBourke(const Display& display, const std::string& file) const {
         if (request_.grid) return writeBourkeGrid(display, file, *request_.grid);
         constexpr int kFewest = 32, kMost = 512;
-        constexpr double kGoodEnoughPx = 0.25;
+        constexpr double kGoodEnoughPx = 0.25, kFewLost = 0.005;
         const double aspect = static_cast<double>(display.sizePx.y) / display.sizePx.x;
         for (int columns = kFewest;; columns *= 2) {
             const int rows = std::clamp(static_cast<int>(std::lround(columns * aspect)), 2, 4 * kMost);
@@ -136,7 +136,10 @@ private:
             if (columns == kMost) return written;
             writeBytes(staged_.path(wallName_), wallFile(wall_, {written.entry}));
             const Wall read = readWall(staged_.path(wallName_));
-            if (conversionError(display, read.displays.front()).maxPx < kGoodEnoughPx) return written;
+            const ConversionError error = conversionError(display, read.displays.front());
+            const double pixels = static_cast<double>(display.sizePx.x) * display.sizePx.y;
+            if (error.maxPx < kGoodEnoughPx && static_cast<double>(error.holesGained) < kFewLost * pixels)
+                return written;
         }
     }
 

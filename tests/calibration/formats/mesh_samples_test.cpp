@@ -15,6 +15,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -223,6 +224,32 @@ TEST_F(MeshSamples, FrustumFilesHaveTheirTable) {
         EXPECT_NEAR(glm::degrees(frustum.leftRad), fovDeg[2], 1e-5);
         EXPECT_NEAR(glm::degrees(frustum.rightRad), fovDeg[3], 1e-5);
     }
+}
+
+TEST_F(MeshSamples, AllLoadAsTheyAre) {
+    const std::set<std::string> kEndings{".sgc", ".simcad", ".csv", ".data", ".map", ".obj"};
+    int loaded = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(test::samplesFolder())) {
+        const FileBytes named{entry.path().string(), ""};
+        if (!entry.is_regular_file() || !kEndings.contains(named.extension())) continue;
+        const FileBytes file = readFile(named.path, "a sample");
+        if (file.stem().ends_with("_frustum")) {
+            EXPECT_FALSE(isMeshFile(file)) << file.path;
+            continue;
+        }
+        SCOPED_TRACE(file.path);
+        ++loaded;
+        ASSERT_TRUE(isMeshFile(file));
+        Decisions decisions;
+        const Wall wall =
+            readCalibration(file, filesBeside(file.path), {.sizePx = glm::ivec2(160, 90)}, decisions);
+        int seen = 0;
+        for (int y = 0; y < 90; ++y)
+            for (int x = 0; x < 160; ++x)
+                seen += wall.displays.front().projection->unproject({x + 0.5, y + 0.5}) ? 1 : 0;
+        EXPECT_GT(seen, 160 * 90 / 20);  // the narrowest covers 6 per cent
+    }
+    EXPECT_GE(loaded, 41);
 }
 
 TEST_F(MeshSamples, ObjMeshesShareTheirVerticesBetweenFaces) {

@@ -19,7 +19,8 @@ def grid(columns, rows, screen=lambda s, t: (s, t), texture=lambda s, t: (s, 1 -
 
 
 def strip(columns, rows):
-    """To and fro, as converted SimCAD files have it: it turns through one triangle along the border."""
+    """To and fro, as converted SimCAD files have it: it turns through one triangle along the border, and lacks
+    its last index where the last row runs backwards."""
     indices = []
     for r in range(rows - 1):
         if r % 2 == 0:
@@ -110,6 +111,14 @@ write("strip_alternates", sgc(grid(3, 3, texture=bent), strip(3, 3), sizes=(3, 3
                 ([24, 20], ray(0.375 + 0.125, 0.625)),  # the upper right triangle: the middle weighs 1/2
                 ([8, 24], ray(0.125, 0.75))),           # the lower left triangle: nothing
       assumptions={"interpolation": "triangles_listed"})
+
+write("strip_end", sgc(grid(3, 3), strip(3, 3), sizes=(3, 3)),
+      "A strip that ends one index short of its last half cell is completed, as the grid is in other formats",
+      rays=rays(([4, 28], ray(0.0625, 0.875)), ([12, 24], ray(0.1875, 0.75))), assumptions={"strip_end": "completed"})
+
+write("strip_end_as_listed", sgc(grid(3, 3), strip(3, 3), sizes=(3, 3)),
+      "unless the user wants the hole",
+      assume={"strip_end": "as_listed"}, rays=rays(([4, 28], None), ([12, 20], ray(0.1875, 0.625))))
 
 write("bilinear", sgc(grid(3, 3, texture=bent), strip(3, 3), sizes=(3, 3)),
       "A user may take the grid as bilinear instead",
