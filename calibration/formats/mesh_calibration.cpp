@@ -63,6 +63,10 @@ SourcePicture sourceOf(const MeshCalibration& mesh, const CalibrationRequest& re
                         sizePx, decisions);
 }
 
+bool dimsNothing(const MeshCalibration& mesh) {
+    return std::ranges::all_of(mesh.vertices, [](const auto& v) { return !v || v->intensity == 1; });
+}
+
 }  // namespace
 
 bool isWithinPicture(glm::dvec2 fraction) {
@@ -79,7 +83,8 @@ MeshDisplay meshOnDisplay(const MeshCalibration& mesh, glm::ivec2 sizePx, const 
     if (!warp->hasArea())
         throw InputError(path, "", "a mesh that covers an area",
                          "no cell with valid vertices that has one on the screen and in the source");
-    std::vector<float> intensity = linearIntensity(*warp, sizePx, intensityGamma);
+    std::vector<float> intensity;
+    if (!dimsNothing(mesh)) intensity = linearIntensity(*warp, sizePx, intensityGamma);
     return {std::make_shared<WarpMeshProjection>(std::move(warp), source.projection), std::move(intensity)};
 }
 
@@ -163,7 +168,7 @@ std::vector<WarpCell> decideCells(glm::ivec2 vertices, CellCut guess, const std:
 }
 
 double decideIntensityGamma(const MeshCalibration& mesh, Decisions& decisions) {
-    if (std::ranges::all_of(mesh.vertices, [](const auto& v) { return !v || v->intensity == 1; })) return 1;
+    if (dimsNothing(mesh)) return 1;
     return decisions.number(
         "intensity_gamma", {0, 10, true}, mesh.intensityGamma.value_or(2.2),
         mesh.intensityGamma ? "the file names it" : "programs multiply encoded colours by the intensity");
