@@ -133,7 +133,8 @@ std::string XmlElement::place() const {
             after += isNamed(other.name(), node.name());
         std::string step = node.name();
         if (before + after > 0) step += "[" + std::to_string(before) + "]";
-        place = place.empty() ? step : step + "/" + place;
+        if (!place.empty()) step += "/";
+        place.insert(0, step);
     }
     return place;
 }

@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/formats/camera_yaml.h"
+#include "calibration/formats/frustum_file.h"
 #include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
 #include "calibration/formats/mesh_file.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <utility>
 
 namespace curvewall {
@@ -33,11 +35,27 @@ Wall readMeshWall(const FileBytes& file, const FindFile& find, const Calibration
     return wall;
 }
 
+// A mesh has its frustum in a file beside it; by itself that is a flat display.
+Wall readFrustumWall(const FileBytes& file, const FindFile&, const CalibrationRequest& request,
+                     Decisions& decisions) {
+    const Frustum frustum = readFrustumFile(file, decisions);
+    const double aspect = (std::tan(frustum.rightRad) - std::tan(frustum.leftRad)) /
+                          (std::tan(frustum.upRad) - std::tan(frustum.downRad));
+    Display display{.name = file.stem(), .projectionType = "frustum"};
+    display.sizePx = decideSize(request, {}, aspect, decisions);
+    display.projection = std::make_shared<FrustumProjection>(frustum, display.sizePx);
+    listDecisions(decisions, display);
+    Wall wall{.name = file.stem(), .eyeM = request.eyeM.value_or(glm::dvec3(0))};
+    wall.displays.push_back(std::move(display));
+    return wall;
+}
+
 constexpr std::initializer_list<Format> kFormats{
     {"a configuration of SGCT", isSgctFile, readSgctFile},
     {"an MPCDI archive or manifest", isMpcdi, readMpcdi},
     {"a VIOSO warp file", isViosoFile, readViosoFile},
     {"a PFM or EXR map", isMapFile, readMapFile},
+    {"a frustum of domeprojection", isFrustumFile, readFrustumWall},
     {"a warp mesh", isMeshFile, readMeshWall},
     {"a camera in YAML", isCameraYaml, readCameraYaml},
 };
@@ -75,6 +93,7 @@ glm::ivec2 decideSize(const CalibrationRequest& request, std::optional<glm::ivec
                       std::optional<double> aspect, Decisions& decisions) {
     constexpr int kUsualWidthPx = 1920;
     constexpr double kUsualAspect = 16.0 / 9.0, kSameAspect = 0.01;
+    if (aspect && !(*aspect > 0 && std::isfinite(*aspect))) aspect.reset();
     if (!aspect && fileSizePx) aspect = static_cast<double>(fileSizePx->x) / fileSizePx->y;
     if (request.sizePx) {
         const double shape = static_cast<double>(request.sizePx->x) / request.sizePx->y;

@@ -90,6 +90,10 @@ std::string usualName(const FileBytes& mesh) {
 
 }  // namespace
 
+bool isFrustumFile(const FileBytes& file) {
+    return lowerCase(file.bytes.substr(0, 128)).find("x;y;z;heading;pitch;bank;") != std::string::npos;
+}
+
 Frustum readFrustumFile(const FileBytes& file, Decisions& decisions) {
     const Values values = valuesOf(file);
     const auto number = [&](const char* name) { return required(file, values, name); };

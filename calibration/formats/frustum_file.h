@@ -14,6 +14,9 @@ namespace curvewall {
 // The frustum beside "STEM_mesh.csv" or "STEM.simcad" is "STEM_frustum.csv". Nothing where there is none.
 std::optional<Frustum> frustumBeside(const FileBytes& mesh, const FindFile& find, Decisions& decisions);
 
+// By its first line.
+bool isFrustumFile(const FileBytes& file);
+
 Frustum readFrustumFile(const FileBytes& file, Decisions& decisions);
 
 }  // namespace curvewall

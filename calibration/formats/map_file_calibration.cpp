@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -45,7 +46,7 @@ NumberMap columnsOf(const NumberMap& map, int begin, int count) {
     NumberMap part{{count, map.sizePx.y}, map.channels, map.isInteger, {}};
     for (int y = 0; y < map.sizePx.y; ++y) {
         const float* row = map.at(begin, y);
-        part.values.insert(part.values.end(), row, row + count * map.channels);
+        part.values.insert(part.values.end(), row, row + static_cast<ptrdiff_t>(count) * map.channels);
     }
     return part;
 }

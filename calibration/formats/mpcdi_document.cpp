@@ -92,10 +92,15 @@ std::optional<MpcdiPicture> pictureOf(const std::optional<XmlElement>& element) 
 
 MpcdiFisheye fisheyeOf(const XmlElement& fisheye, const std::optional<XmlElement>& anamorphic) {
     MpcdiFisheye lens;
-    lens.offset = {fisheye.childNumber("horizontalOffset").value_or(0),
-                   fisheye.childNumber("verticalOffset").value_or(0)};
+    const auto number = [&](const std::string& name) {
+        constexpr double kMost = 1e6;
+        const double value = fisheye.childNumber(name).value_or(0);
+        if (std::abs(value) > kMost) throw fisheye.error(name + " within a million", std::to_string(value));
+        return value;
+    };
+    lens.offset = {number("horizontalOffset"), number("verticalOffset")};
     for (size_t i = 0; i < lens.coefficients.size(); ++i)
-        lens.coefficients[i] = fisheye.childNumber("f" + std::to_string(i + 1)).value_or(0);
+        lens.coefficients[i] = number("f" + std::to_string(i + 1));
     if (anamorphic) {
         const auto ratio = anamorphic->childNumber("ratio");
         lens.anamorphicRatio =

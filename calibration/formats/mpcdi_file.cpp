@@ -10,6 +10,7 @@
 #include "calibration/formats/mpcdi_frustum.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
@@ -21,6 +22,24 @@
 namespace curvewall {
 namespace {
 
+// What maps and blends may hold together: a small archive may name one large map a thousand times.
+class TexelBudget {
+public:
+    TexelBudget(const std::string& path, uint64_t archiveBytes)
+        : path_(path), most_(kMaxMapTexels + 4 * static_cast<int64_t>(archiveBytes)), left_(most_) {}
+
+    void take(glm::ivec2 sizePx, const std::string& place) {
+        left_ -= int64_t{sizePx.x} * sizePx.y;
+        if (left_ < 0)
+            throw InputError(path_, place, fmt::format("maps of at most {} nodes and pixels together", most_),
+                             "more");
+    }
+
+private:
+    const std::string& path_;
+    int64_t most_, left_;
+};
+
 // A region with everything that its display is made of.
 struct RegionContext {
     const MpcdiDocument& document;
@@ -28,6 +47,7 @@ struct RegionContext {
     const MpcdiRegion& region;
     const FindFile& find;
     const CalibrationRequest& request;
+    TexelBudget& budget;
 
     InputError error(const std::string& field, const std::string& expected, const std::string& found) const {
         return {document.path, region.place + field, expected, found};
@@ -53,6 +73,7 @@ RegionMap readMap(const RegionContext& c, const char* element, const MpcdiWarp& 
     RegionMap map{named(c, element, warp.path), {}, true};
     map.isPfm = isPfm(map.file.bytes);
     map.numbers = readNumberMap(map.file);
+    c.budget.take(map.numbers.sizePx, c.region.place);
     map.file.bytes = {};
     if (map.numbers.channels < channels)
         throw InputError(map.file.path, "", fmt::format("a map of {} channels", channels),
@@ -90,8 +111,9 @@ ProjectionPtr readFlat(const RegionContext& c, Display& display, Decisions& deci
     if (!glm::all(glm::greaterThan(region.size, glm::dvec2(0))))
         throw c.error("/@xsize", "a region that covers an area of its buffer",
                       fmt::format("{} x {}", region.size.x, region.size.y));
+    constexpr double kMostPx = 16384;
     const glm::ivec2 bufferPx = c.buffer.sizePx.value_or(
-        glm::max(glm::ivec2(glm::round(glm::dvec2(display.sizePx) / region.size)), glm::ivec2(1)));
+        glm::clamp(glm::round(glm::dvec2(display.sizePx) / region.size), 1.0, kMostPx));
     const SourcePicture source =
         c.request.source
             ? *c.request.source
@@ -230,18 +252,30 @@ std::vector<std::string> displayNames(const MpcdiDocument& document) {
 }
 
 Wall readDocument(const MpcdiDocument& document, const FindFile& find, const CalibrationRequest& request,
-                  const std::string& name, Decisions& decisions) {
+                  const std::string& name, uint64_t archiveBytes, Decisions& decisions) {
     Wall wall{.name = name, .eyeM = request.eyeM.value_or(glm::dvec3(0))};
     for (const std::string& broken : brokenRules(document)) decisions.warn(broken);
     const std::vector<std::string> names = displayNames(document);
+    struct Wanted {
+        const MpcdiBuffer& buffer;
+        const MpcdiRegion& region;
+        const std::string& name;
+    };
+    std::vector<Wanted> wanted;
+    TexelBudget budget(document.path, archiveBytes);
     size_t place = 0;
     for (const MpcdiBuffer& buffer : document.buffers)
         for (const MpcdiRegion& region : buffer.regions) {
             const std::string& displayName = names[place++];
             if (!request.display.empty() && displayName != request.display) continue;
-            wall.displays.push_back(
-                readRegion({document, buffer, region, find, request}, displayName, wall.eyeM, decisions));
+            wanted.push_back({buffer, region, displayName});
+            const glm::ivec2 sizePx = request.sizePx.value_or(region.sizePx.value_or(glm::ivec2(0)));
+            for (const auto& picture : {region.alpha, region.beta})
+                if (picture) budget.take(sizePx, region.place);
         }
+    for (const Wanted& w : wanted)
+        wall.displays.push_back(
+            readRegion({document, w.buffer, w.region, find, request, budget}, w.name, wall.eyeM, decisions));
     return wall;
 }
 
@@ -267,11 +301,11 @@ bool isMpcdi(const FileBytes& file) {
 
 Wall readMpcdi(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
                Decisions& decisions) {
-    if (!isZip(file.bytes)) return readDocument(parseMpcdi(file), find, request, file.stem(), decisions);
+    if (!isZip(file.bytes)) return readDocument(parseMpcdi(file), find, request, file.stem(), 0, decisions);
     const ZipArchive archive(file);
     const FindFile members = archive.files();
     return readDocument(parseMpcdi(manifestOf(archive, members, file.path)), members, request, file.stem(),
-                        decisions);
+                        file.bytes.size(), decisions);
 }
 
 }  // namespace curvewall

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -130,12 +131,16 @@ ProjectionPtr pictureOfRegion(const MpcdiRegion& region, glm::ivec2 sizePx, cons
                          "left below right, down below up, within 90 degrees and less than 178 together",
                          fmt::format("leftAngle {:g}, rightAngle {:g}, downAngle {:g}, upAngle {:g}",
                                      f.leftDeg, f.rightDeg, f.downDeg, f.upDeg));
-    return std::make_shared<FrustumProjection>(Frustum{.leftRad = glm::radians(f.leftDeg),
-                                                       .rightRad = glm::radians(f.rightDeg),
-                                                       .downRad = glm::radians(f.downDeg),
-                                                       .upRad = glm::radians(f.upDeg),
-                                                       .orientation = orientationOf(f)},
-                                               sizePx);
+    const Frustum frustum{.leftRad = glm::radians(f.leftDeg),
+                          .rightRad = glm::radians(f.rightDeg),
+                          .downRad = glm::radians(f.downDeg),
+                          .upRad = glm::radians(f.upDeg),
+                          .orientation = orientationOf(f)};
+    try {
+        return std::make_shared<FrustumProjection>(frustum, sizePx);
+    } catch (const UsageError& error) {
+        throw InputError(path, region.place + "/frustum", "a picture with an area", error.what());
+    }
 }
 
 glm::dmat3 wallFromFrame(const MpcdiFrame& frame) {

@@ -449,8 +449,10 @@ bool isSgctDocument(const FileBytes& file) {
     const std::string_view bytes = file.bytes;
     if (looksLikeXml(bytes)) {
         constexpr std::string_view kRoot = "<cluster";
-        const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-        return !std::ranges::search(bytes, kRoot, {}, lower).empty();
+        const auto same = [](char c, char root) {
+            return c == root || (c >= 'A' && c <= 'Z' && c - 'A' + 'a' == root);
+        };
+        return std::search(bytes.begin(), bytes.end(), kRoot.begin(), kRoot.end(), same) != bytes.end();
     }
     const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
     return first != std::string_view::npos && bytes[first] == '{' &&

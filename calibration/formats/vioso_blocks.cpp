@@ -160,6 +160,15 @@ std::optional<NumberMap> takeBitmap(Reader& in, const FileBytes& file, const std
     return map;
 }
 
+void keepBitmap(ViosoWarp& warp, int place, std::optional<NumberMap> bitmap) {
+    if (place == 0)
+        warp.blend = std::move(bitmap);
+    else if (place == 1)
+        warp.black = std::move(bitmap);
+    else
+        warp.hasWhite = warp.hasWhite || bitmap.has_value();
+}
+
 }  // namespace
 
 bool isVioso(std::string_view bytes) {
@@ -190,12 +199,7 @@ std::vector<ViosoWarp> parseVioso(const FileBytes& file) {
             warps.push_back(takeWarp(in, file, place));
             bitmaps = 0;
         } else if (in.startsWith("BM") && !warps.empty()) {
-            auto bitmap = takeBitmap(in, file, place);
-            ViosoWarp& warp = warps.back();
-            if (bitmaps == 0) warp.blend = std::move(bitmap);
-            if (bitmaps == 1) warp.black = std::move(bitmap);
-            if (bitmaps == 2) warp.hasWhite = bitmap.has_value();
-            ++bitmaps;
+            keepBitmap(warps.back(), bitmaps++, takeBitmap(in, file, place));
         } else {
             throw InputError(file.path, place + " at byte " + std::to_string(in.at()),
                              "a warp, or a bitmap that follows one",

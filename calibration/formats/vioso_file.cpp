@@ -5,6 +5,7 @@
 #include "calibration/formats/map_decisions.h"
 #include "calibration/formats/vioso_blocks.h"
 #include "calibration/formats/vioso_config.h"
+#include "calibration/projections/bilinear_cell.h"
 #include "calibration/projections/frustum.h"
 
 #include <fmt/format.h>
@@ -45,7 +46,11 @@ std::optional<HostFrame> hostFrame(const std::optional<ViosoView>& view) {
     return host;
 }
 
-void requireInvertible(const std::optional<ViosoView>& view, const std::string& path) {
+void requireUsable(const std::optional<ViosoView>& view, const std::string& path) {
+    constexpr double kMost = 1e7;
+    if (view && view->eye && largestCoordinate(*view->eye) > kMost)
+        throw InputError(path, "eye", "numbers within ten million",
+                         fmt::format("{:g}", largestCoordinate(*view->eye)));
     if (!view || !view->viosoFromHost) return;
     const double determinant = glm::determinant(glm::dmat3(*view->viosoFromHost));
     if (!(std::abs(determinant) > 1e-12 && std::abs(determinant) < 1e18))
@@ -135,12 +140,18 @@ std::string uniqueName(const FileBytes& file, const ViosoWarp& warp, size_t coun
     return unique;
 }
 
-std::optional<ViosoView> viewFor(const FileBytes& file, const FindFile& find, size_t index) {
+std::vector<std::optional<ViosoView>> viewsOf(const FileBytes& file, const FindFile& find, size_t warps) {
+    constexpr size_t kMostBytes = size_t{1} << 20;
+    std::vector<std::optional<ViosoView>> views(warps);
     const auto ini = find("VIOSOWarpBlend.ini");
-    if (!ini) return std::nullopt;
-    auto view = findViosoView(*ini, file.name(), static_cast<int>(index));
-    requireInvertible(view, ini->path);
-    return view;
+    if (!ini) return views;
+    if (ini->bytes.size() > kMostBytes)
+        throw InputError(ini->path, "", "at most a megabyte", std::to_string(ini->bytes.size()) + " bytes");
+    for (size_t i = 0; i < warps; ++i) {
+        views[i] = findViosoView(*ini, file.name(), static_cast<int>(i));
+        requireUsable(views[i], ini->path);
+    }
+    return views;
 }
 
 // A wall has one eye: the user's, or else the one that the first channel with an eye has.
@@ -161,8 +172,7 @@ bool isViosoFile(const FileBytes& file) { return isVioso(file.bytes); }
 Wall readViosoFile(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
                    Decisions& decisions) {
     const std::vector<ViosoWarp> warps = parseVioso(file);
-    std::vector<std::optional<ViosoView>> views;
-    for (size_t i = 0; i < warps.size(); ++i) views.push_back(viewFor(file, find, i));
+    const std::vector<std::optional<ViosoView>> views = viewsOf(file, find, warps.size());
     Wall wall{.name = file.stem(), .eyeM = eyeOf(views, request)};
     std::set<std::string> taken;
     for (size_t i = 0; i < warps.size(); ++i) {

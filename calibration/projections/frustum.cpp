@@ -14,7 +14,9 @@ namespace {
 
 void requireArea(const char* low, double lowRad, const char* high, double highRad) {
     constexpr double kQuarterTurnRad = std::numbers::pi / 2;
-    if (!(lowRad > -kQuarterTurnRad && lowRad < highRad && highRad < kQuarterTurnRad))
+    // Angles next to one another may have the same tangent.
+    if (!(lowRad > -kQuarterTurnRad && lowRad < highRad && highRad < kQuarterTurnRad &&
+          std::tan(lowRad) < std::tan(highRad)))
         throw UsageError(std::string("a frustum needs angles within 90 degrees and ") + low + " below " +
                          high + "; they are " + std::to_string(glm::degrees(lowRad)) + " and " +
                          std::to_string(glm::degrees(highRad)));

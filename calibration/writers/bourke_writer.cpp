@@ -16,21 +16,25 @@
 namespace curvewall {
 namespace {
 
-// Bilinear between pixel centres.
+// Bilinear between the centres of pixels that see something: a mask says nothing of others.
 double alphaAt(const Display& display, glm::dvec2 px) {
     if (!display.blend || display.blend->alpha.empty()) return 1;
     const glm::ivec2 last = display.sizePx - 1;
     const glm::dvec2 at = glm::clamp(px - 0.5, glm::dvec2(0), glm::dvec2(last));
-    const glm::ivec2 low(at), high = glm::min(low + 1, last);
-    const auto light = [&](int x, int y) {
-        const glm::dvec3 rgb =
-            display.blend->alpha[static_cast<size_t>(y) * static_cast<size_t>(display.sizePx.x) +
-                                 static_cast<size_t>(x)];
-        return (rgb.r + rgb.g + rgb.b) / 3;
-    };
+    const glm::ivec2 low(at);
     const glm::dvec2 f = at - glm::dvec2(low);
-    return glm::mix(glm::mix(light(low.x, low.y), light(high.x, low.y), f.x),
-                    glm::mix(light(low.x, high.y), light(high.x, high.y), f.x), f.y);
+    double sum = 0, weights = 0;
+    for (const glm::ivec2 step : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+        const glm::ivec2 pixel = glm::min(low + step, last);
+        const double weight = (step.x == 1 ? f.x : 1 - f.x) * (step.y == 1 ? f.y : 1 - f.y);
+        if (weight == 0 || !display.projection->unproject(centreOf(pixel))) continue;
+        const glm::dvec3 rgb =
+            display.blend->alpha[static_cast<size_t>(pixel.y) * static_cast<size_t>(display.sizePx.x) +
+                                 static_cast<size_t>(pixel.x)];
+        sum += weight * (rgb.r + rgb.g + rgb.b) / 3;
+        weights += weight;
+    }
+    return weights > 0 ? sum / weights : 1;
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ private:
         for (int columns = kFewest;; columns *= 2) {
             const int rows = std::clamp(static_cast<int>(std::lround(columns * aspect)), 2, 4 * kMost);
             Written written = writeBourkeGrid(display, file, {columns, rows});
-            if (columns == kMost) return written;
+            if (columns == kMost || columns >= display.sizePx.x) return written;
             writeBytes(staged_.path(wallName_), wallFile(wall_, {written.entry}));
             const Wall read = readWall(staged_.path(wallName_));
             const ConversionError error = conversionError(display, read.displays.front());

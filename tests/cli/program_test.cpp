@@ -222,7 +222,7 @@ TEST_F(Program, ConvertWritesEveryFormatAndSaysWhatItCosts) {
              {"{display}-points.pfm", "", "wall-points.json", {"left-points.pfm", "right-points.pfm"}, 0.01},
              {"flat.exr", "--as camera-texture --display right", "flat.json", {"flat.exr"}, 0.01},
              {"mesh.data", "", "mesh.json", {"mesh-left.data", "mesh-right.data"}, 0.3},
-             {"mesh.txt", "--as bourke --grid 9x7", "mesh.json", {"mesh-left.txt", "mesh-right.txt"}, 20},
+             {"mesh.txt", "--as bourke --grid 9x7", "mesh.json", {"mesh-left.txt", "mesh-right.txt"}, 40},
              {"all.mpcdi", "", "", {"all.mpcdi"}, 0.01},
          }) {
         SCOPED_TRACE(c.out);

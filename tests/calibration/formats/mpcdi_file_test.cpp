@@ -248,6 +248,22 @@ TEST(MpcdiFile, ManyRegionsTakeNoQuadraticTime) {
                  InputError);
 }
 
+TEST(MpcdiFile, BlendsForMoreThanAnyWallAreRefusedBeforeTheyAreMade) {
+    std::string regions, sets;
+    for (const char* id : {"a", "b"}) {
+        regions += fmt::format("<region id='{}' xResolution='16384' yResolution='16384'/>", id);
+        sets += fmt::format("<fileset region='{}'><alphaMap><path>a.pfm</path></alphaMap></fileset>", id);
+    }
+    try {
+        read({"w.mpcdi.xml", "<MPCDI profile='2d'><display><buffer>" + regions +
+                                 "</buffer></display><files>" + sets + "</files></MPCDI>"},
+             findIn({{"a.pfm", test::pfmBytes(greys({1, 1}, {1}))}}));
+        FAIL() << "six gigabytes of blends were made";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("nodes and pixels together"));
+    }
+}
+
 TEST(MpcdiFile, DamagedFilesAreRefusedOrRead) {
     NEED_SAMPLE("sgct-history/correction_mesh.mpcdi");
     const FileBytes archive = sample("sgct-history/correction_mesh.mpcdi");

@@ -241,15 +241,17 @@ std::string sgc(double upDeg, double downDeg, double leftDeg, double rightDeg) {
 }
 
 TEST_F(SgctFile, TakesTheFrustumOfAnSgcMeshAndTellsWhereTheConfigurationDiffers) {
-    files_["wall.sgc"] = sgc(30, -10, -45, 45.005);
+    files_["wall.sgc"] = sgc(30, -10, -45.02, 45.005);
     const Wall wall = read(configuration(windowOf(viewportOf(R"(, "mesh": "wall.sgc")"))));
     const Display& display = wall.displays[0];
-    expectRay(display, {0, 0}, {-1, std::tan(glm::radians(30.0)), -1}, 1e-6);
-    ASSERT_THAT(display.warnings,
-                Contains(HasSubstr("nodes[0].windows[0].viewports[0].projection: wall.sgc is "
-                                   "made for another frustum, which is taken: down -10.000 "
-                                   "instead of -45.000 degrees, up 30.000 instead of 45.000 "
-                                   "degrees")));
+    expectRay(display, {0, 0}, {-std::tan(glm::radians(45.02)), std::tan(glm::radians(30.0)), -1}, 1e-6);
+    ASSERT_THAT(
+        display.warnings,
+        Contains(HasSubstr(
+            "nodes[0].windows[0].viewports[0].projection: wall.sgc is "
+            "made for another frustum, which is taken: left -45.020 instead of -45.000 degrees, down -10.000 "
+            "instead of -45.000 degrees, up 30.000 instead of 45.000 "
+            "degrees")));
     EXPECT_THAT(display.warnings, Not(Contains(HasSubstr("right 45"))));  // 0.005 degrees are the same
     EXPECT_THAT(display.warnings, Not(Contains(HasSubstr("turned"))));
 }

@@ -134,6 +134,11 @@ bare("angle_signs_given", "What the user says of the signs is taken.",
      error="left below right")
 bare("frustum_too_wide", "A frustum of 178 degrees and more is none.",
      manifest("3d", region(frustum((-89.8, 89.8, -20, 20)))), error="less than 178")
+bare("frustum_flat", "A frustum without an area is none, however little its angles differ.",
+     manifest("3d", region(frustum((6.16, 6.160000000000001, -20, 20), (0, 0, 0)))), error="an area")
+bare("region_tiny", "A region of nearly nothing is no reason to fail.",
+     manifest("2d", region(attributes='xResolution="64" yResolution="32" x="0" y="0" xsize="1e-300" ysize="1"'), buffer=""),
+     error="covers an area")
 bare("frustum_missing", "Profile 3d needs a frustum.", manifest("3d", region()), error="a frustum")
 bare("profile_unknown", "Profiles are 2d, 3d, a3d and sl.", manifest("4d", region(frustum())), error="2d, 3d, a3d or sl")
 bare("number_missing", "An angle that is no number is refused, with the place.",
