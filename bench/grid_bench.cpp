@@ -1,9 +1,10 @@
 // What measured maps cost: reading one, and a ray for a pixel.
 
+#include "calibration/files/json_file.h"
 #include "calibration/projections/camera_texture.h"
+#include "calibration/projections/frustum.h"
 #include "calibration/projections/surface_map.h"
 #include "calibration/readers/grid_reader.h"
-#include "calibration/files/json_file.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -97,8 +98,7 @@ CameraTexture cameraTexture(MapDirection direction) {
     NumberMap numbers{kNodesPx, 3, false, numbersFor(kFormats[0])};
     return {std::make_shared<GridMap>(std::move(numbers), NodeMeaning{.isOffset = true}, kNodesPx,
                                       Alignment::centers),
-            {-0.7, 0.7, -0.7, 0.7, {}},
-            direction};
+            std::make_shared<FrustumProjection>(Frustum{-0.7, 0.7, -0.7, 0.7, {}}, kNodesPx), direction};
 }
 
 void buildMap(benchmark::State& state) {
