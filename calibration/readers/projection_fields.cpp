@@ -77,6 +77,6 @@ std::string requiredPath(JsonFields& fields, const char* key, const std::filesys
     return fields.required(key, readPath(fields, key, folder));
 }
 
-std::string describe(glm::dvec3 vector) { return describe(nlohmann::json{vector.x, vector.y, vector.z}); }
+std::string describe(glm::dvec3 vector) { return nlohmann::json{vector.x, vector.y, vector.z}.dump(); }
 
 }  // namespace curvewall
