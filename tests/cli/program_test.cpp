@@ -111,6 +111,33 @@ TEST_F(Program, InspectReportsTheCertificateAsJson) {
     EXPECT_NEAR(ahead[2], -1, 1e-3);
 }
 
+TEST_F(Program, InspectListsWhatWasAssumedOfACalibration) {
+    const std::string mesh =
+        folder_.write("mesh.data", "2\n2 2\n-2 -1 0 0 1\n2 -1 1 0 1\n-2 1 0 1 1\n2 1 1 1 1\n");
+    const Outcome text = run("", "inspect --read-only --size 60x60 " + mesh);
+    ASSERT_EQ(text.exitCode, 0) << text.output;
+    EXPECT_THAT(text.output, HasSubstr("assumed source fisheye"));
+    EXPECT_THAT(text.output, HasSubstr("warning: size: 60 x 60"));
+    const Outcome asJson = run("", "inspect --read-only --json --size 60x30 " + mesh);
+    const json display = json::parse(asJson.output)["displays"][0];
+    EXPECT_EQ(display["size"], json({60, 30}));
+    EXPECT_TRUE(display["warnings"].empty());
+    EXPECT_FALSE(display.contains("pieces"));
+    bool listed = false;
+    for (const json& a : display["assumptions"])
+        listed = listed || (a["key"] == "source_fov_deg" && a["value"] == "180" && !a["evidence"].empty() &&
+                            a["given"] == false);
+    EXPECT_TRUE(listed) << display["assumptions"].dump(1);
+    const Outcome rendered =
+        run("", "render --size 60x30 " + mesh + " --scene room --out " + file("mesh.png"));
+    EXPECT_EQ(rendered.exitCode, 0) << rendered.output;
+    EXPECT_EQ(readFrame(file("mesh.png")).sizePx, glm::ivec2(60, 30));
+    for (const char* size : {"60", "60x", "x30", "0x30", "60x99999", "60x30x2"})
+        EXPECT_EQ(run("", "inspect --size " + std::string(size) + " " + mesh).exitCode, 2) << size;
+    EXPECT_EQ(run("", "inspect --size 60x30 " + wall()).exitCode, 2);
+    EXPECT_EQ(run("", "inspect --read-only --lower-bound " + mesh).exitCode, 2);
+}
+
 TEST_F(Program, InspectLetsThePiecesFollowTheEye) {
     const Outcome outcome = run("", "inspect " + wall() + " --tolerance 0.5 --eye 0.01,0,0 --refit --json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.output;
