@@ -8,6 +8,7 @@
 #include "calibration/formats/map_decisions.h"
 #include "calibration/formats/mpcdi_document.h"
 #include "calibration/formats/mpcdi_frustum.h"
+#include "calibration/formats/texel_budget.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -21,24 +22,6 @@
 
 namespace curvewall {
 namespace {
-
-// What maps and blends may hold together: a small archive may name one large map a thousand times.
-class TexelBudget {
-public:
-    TexelBudget(const std::string& path, uint64_t archiveBytes)
-        : path_(path), most_(kMaxMapTexels + 4 * static_cast<int64_t>(archiveBytes)), left_(most_) {}
-
-    void take(glm::ivec2 sizePx, const std::string& place) {
-        left_ -= int64_t{sizePx.x} * sizePx.y;
-        if (left_ < 0)
-            throw InputError(path_, place, fmt::format("maps of at most {} nodes and pixels together", most_),
-                             "more");
-    }
-
-private:
-    const std::string& path_;
-    int64_t most_, left_;
-};
 
 // A region with everything that its display is made of.
 struct RegionContext {
