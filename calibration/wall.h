@@ -30,6 +30,7 @@ struct Wall {
     glm::dvec3 eyeM{0};       // in wall coordinates
     glm::vec3 background{0};  // linear light; shown where nothing is drawn
     std::vector<Display> displays{};
+    std::vector<std::string> files{};  // paths of all that was read for it
 };
 
 using WallPtr = std::shared_ptr<const Wall>;

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <vector>
 
 namespace curvewall {
 namespace {
@@ -56,15 +55,20 @@ FileBytes readFile(const std::string& path, const std::string& expected, uint64_
     return file;
 }
 
-FindFile filesBeside(const std::string& path) {
-    return [folder = fs::path(path).parent_path()](const std::string& name) -> std::optional<FileBytes> {
-        const std::string what = "a file that " + (folder / "").string() + " names";
-        if (name.empty()) return std::nullopt;
-        if (isInside(name) && isFile(folder / name)) return readFile((folder / name).string(), what);
-        const auto beside = fileOfName(folder.empty() ? fs::path(".") : folder, bareName(name));
-        if (!beside) return std::nullopt;
-        return readFile(beside->string(), what);
+FindFile filesBeside(const std::string& path, std::vector<std::string>* opened) {
+    const auto open = [opened](const fs::path& found, const std::string& what) {
+        if (opened) opened->push_back(found.string());
+        return readFile(found.string(), what);
     };
+    return
+        [folder = fs::path(path).parent_path(), open](const std::string& name) -> std::optional<FileBytes> {
+            const std::string what = "a file that " + (folder / "").string() + " names";
+            if (name.empty()) return std::nullopt;
+            if (isInside(name) && isFile(folder / name)) return open(folder / name, what);
+            const auto beside = fileOfName(folder.empty() ? fs::path(".") : folder, bareName(name));
+            if (!beside) return std::nullopt;
+            return open(*beside, what);
+        };
 }
 
 std::string bareName(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }

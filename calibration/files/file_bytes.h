@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace curvewall {
 
@@ -28,8 +29,9 @@ FileBytes readFile(const std::string& path, const std::string& expected, uint64_
 // the bare name in whatever letter case. Never answers with a file from outside the folder or archive.
 using FindFile = std::function<std::optional<FileBytes>(const std::string& name)>;
 
-// Files in the folder of `path` and below it.
-FindFile filesBeside(const std::string& path);
+// Files in the folder of `path` and below it. The paths of those that are found go to `opened`, which has to
+// live as long as the answer is asked.
+FindFile filesBeside(const std::string& path, std::vector<std::string>* opened = nullptr);
 
 // What a path on any system ends in: "Left.sgc".
 std::string bareName(const std::string& path);

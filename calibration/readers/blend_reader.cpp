@@ -65,7 +65,7 @@ std::vector<glm::vec3> readMap(const std::string& path, glm::vec3 gamma, glm::iv
 
 }  // namespace
 
-BlendMaps readBlend(JsonFields& fields, const std::filesystem::path& folder, glm::ivec2 sizePx) {
+BlendMaps readBlend(JsonFields& fields, const WallFolder& folder, glm::ivec2 sizePx) {
     const auto alpha = readPath(fields, "alpha", folder), beta = readPath(fields, "beta", folder);
     const glm::vec3 gamma = readGamma(fields);
     fields.refuseUnknownKeys();

@@ -3,15 +3,14 @@
 
 #include "calibration/blending/blend.h"
 #include "calibration/files/json_fields.h"
+#include "calibration/readers/wall_folder.h"
 
 #include <glm/vec2.hpp>
-
-#include <filesystem>
 
 namespace curvewall {
 
 // Reads the object's keys and the files that they name, relative to `folder`. Throws FieldError, and
 // InputError for a file.
-BlendMaps readBlend(JsonFields& fields, const std::filesystem::path& folder, glm::ivec2 sizePx);
+BlendMaps readBlend(JsonFields& fields, const WallFolder& folder, glm::ivec2 sizePx);
 
 }  // namespace curvewall

@@ -62,18 +62,17 @@ std::string requiredChoice(JsonFields& fields, const char* key, std::initializer
     return readChoice(fields, key, choices);
 }
 
-std::optional<std::string> readPath(JsonFields& fields, const char* key,
-                                    const std::filesystem::path& folder) {
+std::optional<std::string> readPath(JsonFields& fields, const char* key, const WallFolder& folder) {
     const auto name = fields.text(key);
     if (!name) return std::nullopt;
     std::error_code error;
-    if (name->empty() || !std::filesystem::is_regular_file(folder / *name, error))
+    if (name->empty() || !std::filesystem::is_regular_file(folder.path / *name, error))
         throw FieldError(FieldError::Kind::value, fields.nameOf(key), "the name of a file that is there",
                          "\"" + *name + "\"");
-    return (folder / *name).string();
+    return folder.files.emplace_back((folder.path / *name).string());
 }
 
-std::string requiredPath(JsonFields& fields, const char* key, const std::filesystem::path& folder) {
+std::string requiredPath(JsonFields& fields, const char* key, const WallFolder& folder) {
     return fields.required(key, readPath(fields, key, folder));
 }
 

@@ -5,11 +5,11 @@
 #include "calibration/projections/frustum.h"
 #include "calibration/projections/pose.h"
 #include "calibration/readers/projection_reader.h"
+#include "calibration/readers/wall_folder.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -43,9 +43,10 @@ std::string readChoice(JsonFields& fields, const char* key, std::initializer_lis
 // The same where the key must be there.
 std::string requiredChoice(JsonFields& fields, const char* key, std::initializer_list<const char*> choices);
 
-// A file that an object names, relative to the wall file's folder. It must be there.
-std::optional<std::string> readPath(JsonFields& fields, const char* key, const std::filesystem::path& folder);
-std::string requiredPath(JsonFields& fields, const char* key, const std::filesystem::path& folder);
+// A file that an object names, relative to the wall file's folder. It must be there, and is
+// among the folder's files then.
+std::optional<std::string> readPath(JsonFields& fields, const char* key, const WallFolder& folder);
+std::string requiredPath(JsonFields& fields, const char* key, const WallFolder& folder);
 
 // As messages quote it.
 std::string describe(glm::dvec3 vector);

@@ -3,11 +3,11 @@
 
 #include "calibration/files/json_fields.h"
 #include "calibration/projections/projection.h"
+#include "calibration/readers/wall_folder.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,9 +17,9 @@ namespace curvewall {
 
 // What a projection has from outside its own object.
 struct ProjectionContext {
-    std::filesystem::path folder;  // of the wall file: paths are relative to it
-    glm::dvec3 eyeM{0};            // wall coordinates
-    glm::ivec2 sizePx{0};          // of the display
+    WallFolder folder;
+    glm::dvec3 eyeM{0};    // wall coordinates
+    glm::ivec2 sizePx{0};  // of the display
 };
 
 // What a file says of a display beside its blend. Most types have a projection and nothing else.

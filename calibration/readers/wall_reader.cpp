@@ -33,7 +33,7 @@ BlendMapsPtr blendOf(BlendMaps blend) {
     return blend.empty() ? nullptr : std::make_shared<const BlendMaps>(std::move(blend));
 }
 
-Display readDisplay(JsonFields& fields, const std::filesystem::path& folder, glm::dvec3 eyeM) {
+Display readDisplay(JsonFields& fields, const WallFolder& folder, glm::dvec3 eyeM) {
     Display display;
     display.name = readName(fields, "name");
     display.sizePx = pixelsOf(fields.required("size", fields.wholeNumbers("size", 2, 1, kMostPx)));
@@ -61,8 +61,7 @@ std::string namesOf(const std::vector<Display>& displays) {
 }
 
 // The displays of a file that another program wrote; their names are the file's where the wall gives none.
-std::vector<Display> readCalibrated(JsonFields& fields, const std::filesystem::path& folder,
-                                    glm::dvec3 eyeM) {
+std::vector<Display> readCalibrated(JsonFields& fields, const WallFolder& folder, glm::dvec3 eyeM) {
     JsonFields calibration = fields.required("calibration", fields.object("calibration"));
     const std::string path = requiredPath(calibration, "file", folder);
     CalibrationRequest request{.eyeM = eyeM};
@@ -73,7 +72,8 @@ std::vector<Display> readCalibrated(JsonFields& fields, const std::filesystem::p
     Decisions decisions = givenDecisions(calibration);
     calibration.refuseUnknownKeys();
 
-    Wall wall = readCalibration(readFile(path, "a calibration"), filesBeside(path), request, decisions);
+    Wall wall = readCalibration(readFile(path, "a calibration"), filesBeside(path, &folder.files), request,
+                                decisions);
     decisions.refuseUnusedKeys();
     if (fields.has("name")) {
         if (wall.displays.size() > 1)
@@ -93,7 +93,7 @@ std::vector<Display> readCalibrated(JsonFields& fields, const std::filesystem::p
     return std::move(wall.displays);
 }
 
-std::vector<Display> readDisplays(JsonFields& fields, const std::filesystem::path& folder, glm::dvec3 eyeM) {
+std::vector<Display> readDisplays(JsonFields& fields, const WallFolder& folder, glm::dvec3 eyeM) {
     if (fields.has("calibration") && fields.has("projection"))
         throw FieldError(FieldError::Kind::shape, fields.nameOf("projection"),
                          "a projection or a calibration", "both");
@@ -112,8 +112,10 @@ std::vector<Display> readDisplays(JsonFields& fields, const std::filesystem::pat
     return displays;
 }
 
-Wall readFields(JsonFields fields, const std::filesystem::path& folder) {
+Wall readFields(JsonFields fields, const std::string& path) {
     Wall wall;
+    wall.files = {path};
+    const WallFolder folder{std::filesystem::path(path).parent_path(), wall.files};
     wall.name = readName(fields, "wall");
     wall.eyeM = vector3(fields, "eye", kAnywhereM).value_or(glm::dvec3(0));
     wall.background = vector3(fields, "background", {0, 1}).value_or(glm::dvec3(0));
@@ -137,7 +139,10 @@ bool looksLikeJson(const FileBytes& file) {
 Wall readBareCalibration(const FileBytes& file, std::optional<glm::ivec2> sizePx) {
     Decisions decisions;
     try {
-        return readCalibration(file, filesBeside(file.path), {.sizePx = sizePx}, decisions);
+        std::vector<std::string> files{file.path};
+        Wall wall = readCalibration(file, filesBeside(file.path, &files), {.sizePx = sizePx}, decisions);
+        wall.files = std::move(files);
+        return wall;
     } catch (const UsageError& error) {
         throw InputError(file.path, "", "a screen that the eye can see", error.what());
     }
@@ -153,8 +158,7 @@ Wall readWall(const std::string& path, std::optional<glm::ivec2> sizePx) {
 }
 
 Wall readWallFile(const FileBytes& file) {
-    const std::filesystem::path folder = std::filesystem::path(file.path).parent_path();
-    return readJson(file, [&](JsonFields fields) { return readFields(std::move(fields), folder); });
+    return readJson(file, [&](JsonFields fields) { return readFields(std::move(fields), file.path); });
 }
 
 }  // namespace curvewall

@@ -48,6 +48,15 @@ TEST_F(FileBytesTest, FindsFilesBesideByPathThenByBareName) {
     EXPECT_FALSE(find("mesh"));
 }
 
+TEST_F(FileBytesTest, SaysWhichFilesItFound) {
+    const std::string path = folder_.write("Two.SGC", "two");
+    std::vector<std::string> opened;
+    const FindFile find = filesBeside(folder_.path("config.json"), &opened);
+    find("C:\\SGCT\\two.sgc");
+    find("three.sgc");
+    EXPECT_THAT(opened, testing::ElementsAre(path));
+}
+
 TEST_F(FileBytesTest, NeverLeavesTheFolder) {
     std::filesystem::create_directory(folder_.path("inner"));
     folder_.write("secret.txt", "outside");
