@@ -2,6 +2,9 @@
 
 #include <glm/trigonometric.hpp>
 
+#include <charconv>
+#include <iterator>
+
 namespace curvewall {
 namespace {
 
@@ -17,6 +20,15 @@ void addOrientation(Json& projection, const Orientation& orientation) {
     projection["yaw_deg"] = glm::degrees(orientation.yawRad);
     projection["pitch_deg"] = glm::degrees(orientation.pitchRad);
     projection["roll_deg"] = glm::degrees(orientation.rollRad);
+}
+
+// The double nearest to the shortest decimal that gives the float back: its digits are what JSON then shows.
+double shortest(float number) {
+    char digits[32];
+    const std::to_chars_result written = std::to_chars(std::begin(digits), std::end(digits), number);
+    double value = number;
+    std::from_chars(digits, written.ptr, value);
+    return value;
 }
 
 }  // namespace
@@ -65,10 +77,12 @@ Json bourkeEntry(const Display& display, const std::string& file, const FisheyeS
 }
 
 std::string wallFile(const Wall& wall, const std::vector<Json>& displays) {
-    const Json file = {{"wall", wall.name},
-                       {"eye", {wall.eyeM.x, wall.eyeM.y, wall.eyeM.z}},
-                       {"background", {wall.background.r, wall.background.g, wall.background.b}},
-                       {"displays", displays}};
+    const Json file = {
+        {"wall", wall.name},
+        {"eye", {wall.eyeM.x, wall.eyeM.y, wall.eyeM.z}},
+        {"background",
+         {shortest(wall.background.r), shortest(wall.background.g), shortest(wall.background.b)}},
+        {"displays", displays}};
     return file.dump(2) + "\n";
 }
 
