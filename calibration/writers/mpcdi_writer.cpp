@@ -1,5 +1,6 @@
 #include "calibration/writers/mpcdi_writer.h"
 
+#include "calibration/errors.h"
 #include "calibration/files/file_bytes.h"
 #include "calibration/writers/map_conversion.h"
 #include "calibration/writers/map_writer.h"
@@ -32,18 +33,27 @@ bool needsSurface(const Display& display) {
     return display.projection->dependsOnEye() || !fitsFrustum(viewCone(rayGrid(display, std::nullopt)));
 }
 
-// Regions side by side: the standard allows one buffer only where it allows frusta.
+// Regions beside each other, in as many rows as the widest buffer that readers take needs: the standard
+// allows one buffer only where it allows frusta.
 struct Layout {
     glm::ivec2 bufferPx{0};
-    std::vector<int> leftPx;
+    std::vector<glm::ivec2> topLeftPx;
 };
 
 Layout layoutOf(const std::vector<const Display*>& displays) {
+    constexpr int kMostPx = 16384;
     Layout layout;
+    glm::ivec2 next(0);
     for (const Display* display : displays) {
-        layout.leftPx.push_back(layout.bufferPx.x);
-        layout.bufferPx = {layout.bufferPx.x + display->sizePx.x,
-                           std::max(layout.bufferPx.y, display->sizePx.y)};
+        if (next.x + display->sizePx.x > kMostPx) next = {0, layout.bufferPx.y};
+        layout.topLeftPx.push_back(next);
+        layout.bufferPx = glm::max(layout.bufferPx, next + display->sizePx);
+        if (layout.bufferPx.y > kMostPx)
+            throw UsageError(fmt::format(
+                "display \"{}\" does not fit with the others into one archive, whose buffer has at "
+                "most {} x {} pixels; --display converts one",
+                display->name, kMostPx, kMostPx));
+        next.x += display->sizePx.x;
     }
     return layout;
 }
@@ -68,8 +78,8 @@ public:
         files_ = root.append_child("files");
     }
 
-    void add(const Display& display, int leftPx) {
-        pugi::xml_node region = addRegion(display, leftPx);
+    void add(const Display& display, glm::ivec2 topLeftPx) {
+        pugi::xml_node region = addRegion(display, topLeftPx);
         pugi::xml_node fileset = files_.append_child("fileset");
         fileset.append_attribute("region") = display.name.c_str();
         const std::string name = fmt::format("region{}", ++regions_);
@@ -101,14 +111,14 @@ public:
     }
 
 private:
-    pugi::xml_node addRegion(const Display& display, int leftPx) {
+    pugi::xml_node addRegion(const Display& display, glm::ivec2 topLeftPx) {
         pugi::xml_node region = buffer_.append_child("region");
         region.append_attribute("id") = display.name.c_str();
         const auto add = [&](const char* name, int px, int ofPx) {
             region.append_attribute(name) = fmt::format("{}", static_cast<double>(px) / ofPx).c_str();
         };
-        add("x", leftPx, bufferPx_.x);
-        add("y", 0, bufferPx_.y);
+        add("x", topLeftPx.x, bufferPx_.x);
+        add("y", topLeftPx.y, bufferPx_.y);
         add("xsize", display.sizePx.x, bufferPx_.x);
         add("ysize", display.sizePx.y, bufferPx_.y);
         region.append_attribute("Xresolution") = display.sizePx.x;
@@ -173,7 +183,7 @@ void writeMpcdi(const std::string& path, const std::vector<const Display*>& disp
     const bool isSurface =
         std::ranges::any_of(displays, [](const Display* display) { return needsSurface(*display); });
     Archive archive(isSurface, layout, scratch);
-    for (size_t i = 0; i < displays.size(); ++i) archive.add(*displays[i], layout.leftPx[i]);
+    for (size_t i = 0; i < displays.size(); ++i) archive.add(*displays[i], layout.topLeftPx[i]);
     archive.write(path);
 }
 
