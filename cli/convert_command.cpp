@@ -96,7 +96,6 @@ std::optional<glm::ivec2> gridOf(const std::string& text) {
 ConversionRequest requestOf(const ConvertCommand& command, const Wall& wall) {
     ConversionRequest request;
     request.kind = kindOf(command);
-    request.inputPath = command.wall.path;
     request.displays = chosenDisplays(wall, command.display);
     request.grid = gridOf(command.grid);
     if (request.kind == ConvertedKind::mpcdi) {

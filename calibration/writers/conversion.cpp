@@ -1,7 +1,6 @@
 #include "calibration/writers/conversion.h"
 
 #include "calibration/errors.h"
-#include "calibration/files/file_bytes.h"
 #include "calibration/readers/wall_reader.h"
 #include "calibration/writers/bourke_writer.h"
 #include "calibration/writers/map_conversion.h"
@@ -74,23 +73,12 @@ private:
     Written write(const Display& display, const std::string& file) const {
         if (request_.kind == ConvertedKind::bourke) return writeBourke(display, file);
         const RayGrid grid = rayGrid(display, request_.grid);
-        requireRays(display, grid);
         Written written = request_.kind == ConvertedKind::cameraTexture
                               ? writeCameraTexture(display, grid, file)
                               : writePoints(display, grid, file);
         written.nodes = grid.nodes;
         addBlend(display, fs::path(file).stem().string(), written);
         return written;
-    }
-
-    static void requireRays(const Display& display, const RayGrid& grid) {
-        if (std::min(grid.nodes.x, grid.nodes.y) < 2)
-            throw UsageError(
-                fmt::format("display \"{}\": a grid needs 2 x 2 nodes, and it has {} x {} pixels",
-                            display.name, grid.nodes.x, grid.nodes.y));
-        if (grid.isEmpty())
-            throw UsageError(fmt::format("display \"{}\" shows nothing at any node of a grid of {} x {}",
-                                         display.name, grid.nodes.x, grid.nodes.y));
     }
 
     Written writeCameraTexture(const Display& display, const RayGrid& grid, const std::string& file) const {
@@ -117,7 +105,6 @@ private:
 
     Written writeBourkeGrid(const Display& display, const std::string& file, glm::ivec2 nodes) const {
         const RayGrid grid = rayGrid(display, nodes);
-        requireRays(display, grid);
         const FisheyeSource source = fisheyeSource(grid, display.sizePx);
         const BourkeMesh mesh = bourkeMesh(display, grid, source);
         writeBytes(staged_.path(file), mesh.text);
@@ -163,17 +150,16 @@ private:
     }
 
     void requireNotInput(const std::vector<std::string>& files) const {
-        const std::string bytes = readFile(request_.inputPath, "the input").bytes;
         std::set<std::string> names;
         for (const std::string& file : files) {
             const std::string target = (fs::path(request_.paths.front()).parent_path() / file).string();
             if (!names.insert(file).second) throw UsageError(target + " would be written twice");
-            std::error_code error;
-            if (!fs::exists(target, error)) continue;
-            if (fs::equivalent(target, request_.inputPath, error))
-                throw UsageError(target + " is the input and is not overwritten");
-            if (bytes.find(file) != std::string::npos)
-                throw UsageError(target + " is there already, and the input names a file of that name");
+            // By what is on the disk: a file has many names, by links and by disks that ignore letter case.
+            const bool isRead = std::ranges::any_of(wall_.files, [&](const std::string& read) {
+                std::error_code missing;
+                return fs::equivalent(target, read, missing);
+            });
+            if (isRead) throw UsageError(target + " is the input or a file that it uses: not overwritten");
         }
     }
 

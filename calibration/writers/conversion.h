@@ -16,7 +16,6 @@ enum class ConvertedKind { cameraTexture, surfaceMap, pfm, bourke, mpcdi };
 
 struct ConversionRequest {
     ConvertedKind kind = ConvertedKind::surfaceMap;
-    std::string inputPath;                 // of the wall; neither it nor what it names is overwritten
     std::vector<const Display*> displays;  // of the wall
     std::vector<std::string> paths;        // a file for each display; of an archive one for all
     std::string wallPath;                  // the wall file that names them; none beside an archive
@@ -30,9 +29,9 @@ struct ConvertedDisplay {
     ConversionError error;
 };
 
-// Writes the files, reads them back as any others and compares. All paths are in one folder; files appear
-// there when all are complete. Throws UsageError for what a format cannot hold, and std::runtime_error where
-// nothing can be written.
+// Writes the files, reads them back as any others and compares. No file of the wall is overwritten. All paths
+// are in one folder; files appear there when all are complete. Throws UsageError for what a format cannot
+// hold, and std::runtime_error where nothing can be written.
 std::vector<ConvertedDisplay> convertWall(const Wall& wall, const ConversionRequest& request);
 
 }  // namespace curvewall

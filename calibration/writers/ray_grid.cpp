@@ -1,8 +1,10 @@
 #include "calibration/writers/ray_grid.h"
 
+#include "calibration/errors.h"
 #include "calibration/parallel.h"
 #include "calibration/pieces/pixel_rays.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -111,10 +113,11 @@ glm::dvec2 RayGrid::positionPx(glm::ivec2 node, glm::ivec2 sizePx) const {
                                            : glm::dvec2(sizePx) * glm::dvec2(node) / glm::dvec2(nodes - 1);
 }
 
-bool RayGrid::isEmpty() const { return std::ranges::none_of(rays, &PixelRays::isRay); }
-
 RayGrid rayGrid(const Display& display, std::optional<glm::ivec2> nodes) {
     RayGrid grid{nodes.value_or(display.sizePx), nodes ? Alignment::corners : Alignment::centers, {}};
+    if (std::min(grid.nodes.x, grid.nodes.y) < 2)
+        throw UsageError(fmt::format("display \"{}\": a grid needs 2 x 2 nodes, and it has {} x {} pixels",
+                                     display.name, grid.nodes.x, grid.nodes.y));
     grid.rays.assign(static_cast<size_t>(grid.nodes.x) * static_cast<size_t>(grid.nodes.y),
                      glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
     parallelRanges(grid.nodes.y, [&](int begin, int end) {
@@ -126,6 +129,9 @@ RayGrid rayGrid(const Display& display, std::optional<glm::ivec2> nodes) {
                               static_cast<size_t>(x)] = *ray;
             }
     });
+    if (std::ranges::none_of(grid.rays, &PixelRays::isRay))
+        throw UsageError(fmt::format("display \"{}\" shows nothing at any node of a grid of {} x {}",
+                                     display.name, grid.nodes.x, grid.nodes.y));
     return grid;
 }
 

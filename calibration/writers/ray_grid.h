@@ -20,10 +20,10 @@ struct RayGrid {
     std::vector<glm::dvec3> rays;  // row by row from the top, as unproject gives them; NaN in holes
 
     glm::dvec2 positionPx(glm::ivec2 node, glm::ivec2 sizePx) const;
-    bool isEmpty() const;
 };
 
-// The pixel centres without `nodes`, else a grid from border to border.
+// The pixel centres without `nodes`, else a grid from border to border. At least 2 x 2 nodes, and a ray at
+// one of them: throws UsageError for a display that is too small or shows nothing there.
 RayGrid rayGrid(const Display& display, std::optional<glm::ivec2> nodes);
 
 // A cone around all rays, as narrow as a few candidates for its axis allow, with a frame whose -z is the axis

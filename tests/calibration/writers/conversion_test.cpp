@@ -24,6 +24,8 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <pugixml.hpp>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
@@ -69,11 +71,9 @@ std::string smallWall(const test::TemporaryFolder& folder, const std::string& st
     return folder.write("in/" + stem + ".json", wall.dump());
 }
 
-ConversionRequest requestFor(const Wall& wall, const std::string& input, const std::string& stem,
-                             ConvertedKind kind) {
+ConversionRequest requestFor(const Wall& wall, const std::string& stem, ConvertedKind kind) {
     ConversionRequest request;
     request.kind = kind;
-    request.inputPath = input;
     for (const Display& display : wall.displays) {
         request.displays.push_back(&display);
         request.paths.push_back(stem + "-" + display.name + extensionOf(kind));
@@ -143,7 +143,7 @@ void expectStatedErrors(const Wall& wall, const Trip& trip, double boundPx) {
 class ShippedWalls : public ::testing::TestWithParam<std::string> {
 protected:
     ConversionRequest request(ConvertedKind kind) const {
-        return requestFor(wall_, input_, folder_.path("out"), kind);
+        return requestFor(wall_, folder_.path("out"), kind);
     }
     test::TemporaryFolder folder_;
     std::string input_ = smallWall(folder_, GetParam(), 8);
@@ -177,8 +177,7 @@ TEST_P(ShippedWalls, ComeBackFromCameraTexturesUnlessTheySeeTooMuch) {
         SCOPED_TRACE(display.name);
         Wall one = wall_;
         one.displays = {display};
-        const ConversionRequest request =
-            requestFor(one, input_, folder_.path("out"), ConvertedKind::cameraTexture);
+        const ConversionRequest request = requestFor(one, folder_.path("out"), ConvertedKind::cameraTexture);
         constexpr double kMostDeg = 170, kCertainlyLessDeg = 166;
         if (widestDeg(display) < kCertainlyLessDeg) expectStatedErrors(one, roundTrip(one, request), 0.01);
         if (widestDeg(display) < kMostDeg) continue;
@@ -227,7 +226,7 @@ protected:
         wall_ = readWall(input_);
     }
     Trip trip(ConvertedKind kind, const std::string& stem = "out") const {
-        return roundTrip(wall_, requestFor(wall_, input_, folder_.path(stem), kind));
+        return roundTrip(wall_, requestFor(wall_, folder_.path(stem), kind));
     }
     glm::dvec3 ray(double x, double y) const {
         return wall_.displays.front().projection->unproject({x, y}).value();
@@ -300,7 +299,7 @@ TEST_F(Conversion, CameraTexturesHoldOffsetsIntoAFlatPicture) {
 }
 
 TEST_F(Conversion, BourkeMeshesPointIntoTheFisheyeThatTheWallFileDescribes) {
-    ConversionRequest request = requestFor(wall_, input_, folder_.path("out"), ConvertedKind::bourke);
+    ConversionRequest request = requestFor(wall_, folder_.path("out"), ConvertedKind::bourke);
     request.grid = {5, 3};
     roundTrip(wall_, request);
     std::istringstream mesh(textOf(folder_.path("out-a.data")));
@@ -413,7 +412,7 @@ TEST_F(Conversion, BlendingComesAlong) {
     }
     // A mesh keeps the alpha alone, encoded. Its border nodes have the alpha of the border pixels, so that
     // these get a quarter of the 6 / 24 to their neighbours; the slope of x^2.2 at 1 is 2.2.
-    ConversionRequest request = requestFor(wall_, input_, folder_.path("out"), ConvertedKind::bourke);
+    ConversionRequest request = requestFor(wall_, folder_.path("out"), ConvertedKind::bourke);
     request.grid = {7, 5};
     const Trip read = roundTrip(wall_, request);
     EXPECT_NEAR(read.stated[0].error.blendDifference, 2.2 * 6 / 24 / 4, 0.01);
@@ -442,13 +441,13 @@ TEST_F(Conversion, HolesStayHolesAndAreCounted) {
 }
 
 TEST_F(Conversion, CoarseGridsCostWhatIsStated) {
-    ConversionRequest request = requestFor(wall_, input_, folder_.path("out"), ConvertedKind::surfaceMap);
+    ConversionRequest request = requestFor(wall_, folder_.path("out"), ConvertedKind::surfaceMap);
     request.grid = {3, 2};
     const Trip trip = roundTrip(wall_, request);
     EXPECT_EQ(trip.stated[0].nodes, glm::ivec2(3, 2));
     expectStatedErrors(wall_, trip, 1);
     EXPECT_GT(trip.stated[0].error.maxPx, 0.01);  // a chord of 45 degrees for an arc
-    request = requestFor(wall_, input_, folder_.path("out"), ConvertedKind::mpcdi);
+    request = requestFor(wall_, folder_.path("out"), ConvertedKind::mpcdi);
     request.grid = {3, 2};
     EXPECT_THROW(convertWall(wall_, request), UsageError);
 }
@@ -467,7 +466,7 @@ TEST_F(Conversion, NothingIsOverwrittenThatTheInputNeeds) {
     wall_ = readWall(input_);
     const auto files = filesIn(folder_.path("in"));
     for (const char* name : {"map", "map-a"}) {
-        ConversionRequest request = requestFor(wall_, input_, folder_.path("in/other"), ConvertedKind::pfm);
+        ConversionRequest request = requestFor(wall_, folder_.path("in/other"), ConvertedKind::pfm);
         request.paths = {folder_.path("in/" + std::string(name) + ".pfm")};
         request.wallPath = folder_.path("in/" + std::string(name) + ".json");
         EXPECT_THROW(convertWall(wall_, request), UsageError) << name;
@@ -476,12 +475,135 @@ TEST_F(Conversion, NothingIsOverwrittenThatTheInputNeeds) {
     EXPECT_EQ(textOf(folder_.path("in/map-a.pfm")), before);
 }
 
+TEST_F(Conversion, NoFileOfTheInputIsOverwrittenHoweverItIsNamed) {
+    trip(ConvertedKind::bourke, "in/left");
+    fs::rename(folder_.path("in/left-a.data"), folder_.path("in/left.data"));
+    // The name of the mesh is in no file but the second, as it was on another machine.
+    folder_.write("in/c.json", R"({"version": 1, "masteraddress": "a", "nodes": [{"address": "a", "windows": [
+        {"size": {"x": 16, "y": 16}, "viewports": [{"mesh": "C:\\dome\\LEFT.data",
+         "projection": {"type": "FisheyeProjection"}}]}]}]})");
+    input_ =
+        folder_.write("in/w.json", R"({"wall": "w", "displays": [{"calibration": {"file": "c.json"}}]})");
+    fs::create_directory_symlink(folder_.path("in"), folder_.path("elsewhere"));
+    fs::create_symlink("left.data", folder_.path("in/linked.data"));
+    wall_ = readWall(input_);
+    const auto files = filesIn(folder_.path("in"));
+    const std::string before = textOf(folder_.path("in/left.data"));
+    for (const char* name : {"in/left", "elsewhere/left", "in/linked", "in/c", "in/w"}) {
+        ConversionRequest request = requestFor(wall_, folder_.path("out"), ConvertedKind::bourke);
+        request.paths = {folder_.path(std::string(name) + ".data")};
+        request.wallPath = folder_.path(std::string(name) + ".json");
+        EXPECT_THROW(convertWall(wall_, request), UsageError) << name;
+    }
+    EXPECT_EQ(filesIn(folder_.path("in")), files);
+    EXPECT_EQ(textOf(folder_.path("in/left.data")), before);
+}
+
+TEST_F(Conversion, WhatTheInputOnlySeemsToNameIsOverwritten) {
+    folder_.write("in/small.pfm", "of another wall");
+    json named = json::parse(textOf(input_));
+    named["wall"] = "small.pfm";
+    wall_ = readWall(folder_.write("in/wall.json", named.dump()));
+    ConversionRequest request = requestFor(wall_, folder_.path("in/other"), ConvertedKind::pfm);
+    request.paths = {folder_.path("in/small.pfm")};
+    EXPECT_NO_THROW(convertWall(wall_, request));
+    EXPECT_THAT(textOf(folder_.path("in/small.pfm")), HasSubstr("PF"));
+}
+
+TEST_F(Conversion, DisplaysThatShowNothingAreRefused) {
+    // Between the centres of two pixels there is something, so that it is read.
+    input_ = folder_.write("in/h.obj",
+                           "v 0.001 0.001\nv 0.0012 0.001\nv 0.001 0.0012\n"
+                           "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    wall_ = readWall(input_, glm::ivec2(64, 48));
+    for (const ConvertedKind kind : {ConvertedKind::surfaceMap, ConvertedKind::cameraTexture,
+                                     ConvertedKind::pfm, ConvertedKind::bourke, ConvertedKind::mpcdi})
+        try {
+            trip(kind);
+            ADD_FAILURE() << extensionOf(kind);
+        } catch (const UsageError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("shows nothing"));
+        }
+}
+
+TEST_F(Conversion, ArchivesOfWideWallsHoldEveryDisplayApart) {
+    json displays;
+    const auto add = [&](int width, int height) {
+        displays.push_back({{"name", std::to_string(displays.size())},
+                            {"size", {width, height}},
+                            {"projection",
+                             {{"type", "frustum"},
+                              {"left_deg", -30},
+                              {"right_deg", 30},
+                              {"down_deg", -20},
+                              {"up_deg", 20}}}});
+    };
+    const auto write = [&] {
+        input_ = folder_.write("in/wide.json", json{{"wall", "wide"}, {"displays", displays}}.dump());
+        wall_ = readWall(input_);
+    };
+    for (int i = 0; i < 5; ++i) add(3840, 4 + i);
+    add(16384, 2);
+    write();
+    expectStatedErrors(wall_, trip(ConvertedKind::mpcdi), 0.01);
+    // Regions of a buffer within the limits of what reads them, none over another.
+    pugi::xml_document manifest;
+    ASSERT_TRUE(manifest.load_string(memberOf(folder_.path("out.mpcdi"), "mpcdi.xml").c_str()));
+    const pugi::xml_node buffer = manifest.child("MPCDI").child("display").child("buffer");
+    const glm::ivec2 bufferPx(buffer.attribute("Xresolution").as_int(),
+                              buffer.attribute("Yresolution").as_int());
+    EXPECT_EQ(bufferPx, glm::ivec2(16384, 7 + 8 + 2));
+    struct Rectangle {
+        glm::dvec2 low, high;
+    };
+    std::vector<Rectangle> regions;
+    for (const pugi::xml_node region : buffer.children("region")) {
+        const auto pixels = [&](const char* x, const char* y) {
+            return glm::dvec2(bufferPx) *
+                   glm::dvec2(region.attribute(x).as_double(), region.attribute(y).as_double());
+        };
+        const Rectangle placed{pixels("x", "y"), pixels("x", "y") + pixels("xsize", "ysize")};
+        const glm::dvec2 size = placed.high - placed.low;
+        EXPECT_NEAR(size.x, region.attribute("Xresolution").as_int(), 1e-6);
+        EXPECT_NEAR(size.y, region.attribute("Yresolution").as_int(), 1e-6);
+        EXPECT_LE(placed.high.x, bufferPx.x + 1e-6);
+        EXPECT_LE(placed.high.y, bufferPx.y + 1e-6);
+        for (const Rectangle& other : regions)
+            EXPECT_TRUE(placed.low.x > other.high.x - 1e-6 || placed.low.y > other.high.y - 1e-6 ||
+                        other.low.x > placed.high.x - 1e-6 || other.low.y > placed.high.y - 1e-6);
+        regions.push_back(placed);
+    }
+    EXPECT_EQ(regions.size(), wall_.displays.size());
+
+    displays.clear();
+    add(2, 16000);
+    add(16384, 385);
+    write();
+    EXPECT_THROW(trip(ConvertedKind::mpcdi), UsageError);  // 16385 rows
+}
+
+TEST_F(Conversion, WallFilesWriteTheBackgroundAsItWasWritten) {
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> thousandths(0, 1000);
+    for (int i = 0; i < 20; ++i) {
+        std::vector<double> background;
+        for (int c = 0; c < 3; ++c) background.push_back(thousandths(random) / 1000.0);
+        json wall = json::parse(textOf(input_));
+        wall["background"] = background;
+        input_ = folder_.write("in/wall.json", wall.dump());
+        wall_ = readWall(input_);
+        EXPECT_EQ(trip(ConvertedKind::pfm).read.background, wall_.background);
+        EXPECT_EQ(json::parse(textOf(folder_.path("out.json")))["background"].dump(),
+                  json(background).dump());
+    }
+}
+
 TEST_F(Conversion, WhatFailsLeavesNothingBehind) {
     fs::create_directories(folder_.path("out/wall.json"));  // no file can be moved there
-    ConversionRequest request = requestFor(wall_, input_, folder_.path("out/wall"), ConvertedKind::pfm);
+    ConversionRequest request = requestFor(wall_, folder_.path("out/wall"), ConvertedKind::pfm);
     EXPECT_THROW(convertWall(wall_, request), std::runtime_error);
     for (const std::string& name : filesIn(folder_.path("out"))) EXPECT_FALSE(name.starts_with(".")) << name;
-    request = requestFor(wall_, input_, folder_.path("missing/out"), ConvertedKind::pfm);
+    request = requestFor(wall_, folder_.path("missing/out"), ConvertedKind::pfm);
     EXPECT_THROW(convertWall(wall_, request), std::runtime_error);
     EXPECT_FALSE(fs::exists(folder_.path("missing")));
 }
