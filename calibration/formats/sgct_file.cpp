@@ -1,6 +1,7 @@
 #include "calibration/formats/sgct_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/formats/mesh_file.h"
 #include "calibration/formats/sgct_correction.h"
 #include "calibration/formats/sgct_document.h"
@@ -30,13 +31,6 @@ struct Part {
     const std::string& place() const { return viewport ? viewport->place : window->place; }
 };
 
-// Names become parts of file names.
-std::string withoutSlashes(std::string name) {
-    std::ranges::replace_if(
-        name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; }, '_');
-    return name;
-}
-
 // What tells one of several apart: nothing where there is one, its name where no other has it, or its number.
 template <class Item, class NameOf>
 std::string labelOf(const std::vector<Item>& items, size_t index, const char* kind, const NameOf& nameOf) {
@@ -63,7 +57,7 @@ bool showsSomething(const SgctWindow& window, Decisions& decisions) {
 std::vector<Part> partsOf(const SgctDocument& document, const std::string& fileName, Decisions& decisions) {
     std::vector<Part> parts;
     const auto add = [&](const SgctWindow& window, const SgctViewport* viewport, const std::string& name) {
-        parts.push_back({&window, viewport, withoutSlashes(name.empty() ? fileName : name)});
+        parts.push_back({&window, viewport, safeDisplayName(name.empty() ? fileName : name)});
     };
     for (size_t n = 0; n < document.nodes.size(); ++n) {
         const SgctNode& node = document.nodes[n];
@@ -93,16 +87,12 @@ void preferViewportNames(std::vector<Part>& parts) {
     for (const Part& part : parts)
         if (!part.viewport || part.viewport->name.empty() || !names.insert(part.viewport->name).second)
             return;
-    for (Part& part : parts) part.name = withoutSlashes(part.viewport->name);
+    for (Part& part : parts) part.name = safeDisplayName(part.viewport->name);
 }
 
 void makeNamesUnique(std::vector<Part>& parts) {
-    std::set<std::string> names;
-    for (Part& part : parts) {
-        const std::string name = part.name;
-        for (int number = 2; !names.insert(part.name).second; ++number)
-            part.name = fmt::format("{}-{}", name, number);
-    }
+    std::set<std::string> taken;
+    for (Part& part : parts) part.name = uniqueName(part.name, taken);
 }
 
 std::string nameOfUser(const Part& part) { return part.viewport ? part.viewport->user : std::string(); }
