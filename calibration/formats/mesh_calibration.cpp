@@ -1,6 +1,7 @@
 #include "calibration/formats/mesh_calibration.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/projections/grid_map.h"
 #include "calibration/projections/lens_projection.h"
 #include "calibration/projections/radial_lens.h"
@@ -172,7 +173,7 @@ SourcePicture decideSource(bool isFisheye, const std::string& evidence, glm::ive
 
 Display meshDisplay(const MeshCalibration& mesh, const FileBytes& file, const CalibrationRequest& request,
                     Decisions& decisions) {
-    Display display{.name = file.stem(), .projectionType = "warp_mesh"};
+    Display display{.name = safeDisplayName(file.stem()), .projectionType = "warp_mesh"};
     display.sizePx = decideSize(request, mesh.sizePx, mesh.aspect, decisions);
     const double gamma = decideIntensityGamma(mesh, decisions);
     const SourcePicture source = sourceOf(mesh, request, display.sizePx, decisions);
