@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/formats/camera_yaml.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/formats/frustum_file.h"
 #include "calibration/formats/map_file_calibration.h"
 #include "calibration/formats/mesh_calibration.h"
@@ -41,7 +42,7 @@ Wall readFrustumWall(const FileBytes& file, const FindFile&, const CalibrationRe
     const Frustum frustum = readFrustumFile(file, decisions);
     const double aspect = (std::tan(frustum.rightRad) - std::tan(frustum.leftRad)) /
                           (std::tan(frustum.upRad) - std::tan(frustum.downRad));
-    Display display{.name = file.stem(), .projectionType = "frustum"};
+    Display display{.name = safeDisplayName(file.stem()), .projectionType = "frustum"};
     display.sizePx = decideSize(request, {}, aspect, decisions);
     display.projection = std::make_shared<FrustumProjection>(frustum, display.sizePx);
     listDecisions(decisions, display);
@@ -82,6 +83,7 @@ bool isCalibration(const FileBytes& file) { return findFormat(file) != nullptr; 
 Wall readCalibration(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
                      Decisions& decisions) {
     Wall wall = formatOf(file).read(file, find, request, decisions);
+    wall.name = safeDisplayName(wall.name);  // that of the file
     if (!request.display.empty())
         std::erase_if(wall.displays, [&](const Display& d) { return d.name != request.display; });
     if (wall.displays.empty())

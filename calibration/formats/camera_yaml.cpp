@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/files/yaml_values.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/projections/camera_lens.h"
 #include "calibration/projections/lens_projection.h"
 
@@ -18,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -394,7 +396,7 @@ void warnOfDistance(const CameraFile& file, Decisions& decisions) {
 std::string displayName(const CameraFile& file, const std::string& device, const std::string& stem) {
     if (!device.empty()) return (device.find_first_of("0123456789") == 0 ? "camera" : "") + device;
     const std::string name = file.text("camera_name").value_or("");
-    return name.empty() || name.find('/') != std::string::npos ? stem : name;
+    return name.empty() ? stem : name;
 }
 
 Display readDisplay(const CameraFile& file, const std::string& device, const CalibrationRequest& request,
@@ -428,9 +430,11 @@ Wall readCameraYaml(const FileBytes& file, const FindFile& /*find*/, const Calib
     const CameraFile cameras = cameraFile(file);
     warnOfDistance(cameras, decisions);
     Wall wall{.name = file.stem(), .eyeM = request.eyeM.value_or(glm::dvec3(0))};
+    std::set<std::string> taken;
     for (const auto& [device, fields] : cameras.devices) {
         wall.displays.push_back(readDisplay(cameras, device, request, decisions));
-        wall.displays.back().name = displayName(cameras, device, file.stem());
+        wall.displays.back().name =
+            uniqueName(safeDisplayName(displayName(cameras, device, file.stem())), taken);
     }
     return wall;
 }

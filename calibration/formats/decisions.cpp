@@ -1,5 +1,7 @@
 #include "calibration/formats/decisions.h"
 
+#include "calibration/formats/display_names.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +20,8 @@ const nlohmann::json* Decisions::given(const char* key) {
 
 void Decisions::list(const char* key, const std::string& value, const std::string& evidence, bool isGiven) {
     std::erase_if(taken_, [key](const Assumption& earlier) { return earlier.key == key; });
-    taken_.push_back({key, value, isGiven ? "the wall file says so" : evidence, isGiven});
+    taken_.push_back(
+        {key, validUtf8(value), isGiven ? "the wall file says so" : validUtf8(evidence), isGiven});
 }
 
 size_t Decisions::place(const char* key, const std::vector<const char*>& words, size_t guess,
@@ -56,7 +59,8 @@ std::string Decisions::text(const char* key, const std::string& guess, const std
 }
 
 void Decisions::warn(const std::string& text) {
-    if (std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(text);
+    std::string warning = validUtf8(text);
+    if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
 }
 
 void Decisions::refuseUnusedKeys() const {

@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/files/pfm_file.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/formats/map_decisions.h"
 
 #include <fmt/format.h>
@@ -124,7 +125,7 @@ Wall readMapFile(const FileBytes& file, const FindFile&, const CalibrationReques
 
     Wall wall{.name = file.stem(), .eyeM = request.eyeM.value_or(glm::dvec3(0))};
     Display display;
-    display.name = file.stem();
+    display.name = safeDisplayName(file.stem());
     display.sizePx = described.sizePx = decideMapSize(request, map.sizePx, decisions);
     if (kind == MapKind::surface) {
         const PointFrame frame = decideFrame({}, described.survey, decisions);

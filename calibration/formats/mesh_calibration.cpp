@@ -1,10 +1,12 @@
 #include "calibration/formats/mesh_calibration.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/projections/grid_map.h"
 #include "calibration/projections/lens_projection.h"
 #include "calibration/projections/radial_lens.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -16,6 +18,9 @@
 
 namespace curvewall {
 namespace {
+
+// Their factors take sixteen bytes a pixel.
+constexpr int64_t kMostDimmedPixels = int64_t{1} << 26;
 
 enum class GridFilling { cutFirstToLast, cutAcross, cutAlternating, bilinear };
 
@@ -63,6 +68,32 @@ SourcePicture sourceOf(const MeshCalibration& mesh, const CalibrationRequest& re
                         sizePx, decisions);
 }
 
+// A position is looked for in every cell whose box it lies in. Real meshes fold a few times at most; without
+// a limit a few kilobytes of random vertices would take hours.
+void requireFewLayers(const std::vector<WarpVertex>& vertices, const std::vector<WarpCell>& cells,
+                      glm::dvec2 WarpVertex::*place, glm::dvec2 sizePx, const char* what,
+                      const std::string& path) {
+    constexpr double kMostLayers = 100;
+    double area = 0;
+    for (const WarpCell& cell : cells) {
+        glm::dvec2 low = sizePx, high(0);
+        bool isValid = true;
+        for (size_t i = 0; i < (cell.shape == CellShape::triangle ? 3U : 4U); ++i) {
+            const WarpVertex& vertex = vertices[cell.vertices[i]];
+            isValid = isValid && vertex.isValid;
+            low = glm::min(low, vertex.*place);
+            high = glm::max(high, vertex.*place);
+        }
+        const glm::dvec2 inside = glm::min(high, sizePx) - glm::max(low, glm::dvec2(0));
+        if (isValid && inside.x > 0 && inside.y > 0) area += inside.x * inside.y;
+    }
+    const double layers = area / (sizePx.x * sizePx.y);
+    if (layers > kMostLayers)
+        throw InputError(path, "",
+                         fmt::format("cells that cover {} at most {} times over", what, kMostLayers),
+                         fmt::format("{:.0f} times", layers));
+}
+
 bool dimsNothing(const MeshCalibration& mesh) {
     return std::ranges::all_of(mesh.vertices, [](const auto& v) { return !v || v->intensity == 1; });
 }
@@ -78,12 +109,20 @@ MeshDisplay meshOnDisplay(const MeshCalibration& mesh, glm::ivec2 sizePx, const 
                           double intensityGamma, const std::string& path) {
     const double extentPx = std::max(
         {static_cast<double>(sizePx.x), static_cast<double>(sizePx.y), source.sizePx.x, source.sizePx.y});
-    auto warp =
-        std::make_shared<const WarpMesh>(warpVertices(mesh, sizePx, source.sizePx), mesh.cells, extentPx);
+    std::vector<WarpVertex> vertices = warpVertices(mesh, sizePx, source.sizePx);
+    requireFewLayers(vertices, mesh.cells, &WarpVertex::screenPx, sizePx, "the screen", path);
+    requireFewLayers(vertices, mesh.cells, &WarpVertex::sourcePx, source.sizePx, "the source", path);
+    auto warp = std::make_shared<const WarpMesh>(std::move(vertices), mesh.cells, extentPx);
     if (!warp->hasArea())
         throw InputError(path, "", "a mesh that covers an area",
                          "no cell with valid vertices that has one on the screen and in the source");
     std::vector<float> intensity;
+    const int64_t pixels = int64_t{sizePx.x} * sizePx.y;
+    if (!dimsNothing(mesh) && pixels > kMostDimmedPixels)
+        throw InputError(
+            path, "",
+            fmt::format("a display of at most {} pixels for a mesh with intensities", kMostDimmedPixels),
+            std::to_string(pixels));
     if (!dimsNothing(mesh)) intensity = linearIntensity(*warp, sizePx, intensityGamma);
     return {std::make_shared<WarpMeshProjection>(std::move(warp), source.projection), std::move(intensity)};
 }
@@ -134,7 +173,7 @@ SourcePicture decideSource(bool isFisheye, const std::string& evidence, glm::ive
 
 Display meshDisplay(const MeshCalibration& mesh, const FileBytes& file, const CalibrationRequest& request,
                     Decisions& decisions) {
-    Display display{.name = file.stem(), .projectionType = "warp_mesh"};
+    Display display{.name = safeDisplayName(file.stem()), .projectionType = "warp_mesh"};
     display.sizePx = decideSize(request, mesh.sizePx, mesh.aspect, decisions);
     const double gamma = decideIntensityGamma(mesh, decisions);
     const SourcePicture source = sourceOf(mesh, request, display.sizePx, decisions);

@@ -5,6 +5,7 @@
 #include "calibration/files/xml_document.h"
 #include "calibration/files/zip_archive.h"
 #include "calibration/formats/blend_files.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/formats/map_decisions.h"
 #include "calibration/formats/mpcdi_document.h"
 #include "calibration/formats/mpcdi_frustum.h"
@@ -14,7 +15,6 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -214,7 +214,6 @@ Display readRegion(const RegionContext& c, std::string name, glm::dvec3 eyeM, De
     return display;
 }
 
-// Names become parts of file names and are unique.
 std::vector<std::string> displayNames(const MpcdiDocument& document) {
     std::map<std::string, int> uses;
     for (const MpcdiBuffer& buffer : document.buffers)
@@ -225,11 +224,7 @@ std::vector<std::string> displayNames(const MpcdiDocument& document) {
         for (const MpcdiRegion& region : buffer.regions) {
             std::string name = uses[region.id] > 1 ? buffer.id + "-" + region.id : region.id;
             if (name.empty()) name = "region";
-            std::ranges::replace_if(
-                name, [](char ch) { return ch == '/' || ch == '\\'; }, '_');
-            std::string unique = name;
-            for (int i = 2; !taken.insert(unique).second; ++i) unique = fmt::format("{}-{}", name, i);
-            names.push_back(unique);
+            names.push_back(uniqueName(safeDisplayName(name), taken));
         }
     return names;
 }

@@ -2,8 +2,10 @@
 
 #include "calibration/errors.h"
 #include "calibration/files/map_file.h"
+#include "calibration/files/pfm_file.h"
 #include "calibration/formats/blend_files.h"
 #include "calibration/formats/map_calibration.h"
+#include "calibration/formats/map_decisions.h"
 #include "calibration/formats/mesh_file.h"
 #include "calibration/projections/picture_views.h"
 
@@ -14,6 +16,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -85,6 +90,21 @@ void warnOfOtherShape(const SgctContext& context, const FileBytes& file, double 
                         context.viewport.place, file.name(), meshAspect, context.aspect));
 }
 
+// What stays in memory of a vertex and of a cell, in the budget's texels.
+constexpr int kTexelsOfPart = 8;
+
+// The mesh on the viewport, whose memory and intensity factors are charged first.
+MeshDisplay chargedMesh(const SgctContext& context, const MeshCalibration& mesh, const SourcePicture& source,
+                        const std::string& path, Decisions& decisions) {
+    const std::string place = context.viewport.place + ".mesh";
+    context.budget.take({static_cast<int>(mesh.vertices.size() + mesh.cells.size()), kTexelsOfPart}, place);
+    const bool dims =
+        std::ranges::any_of(mesh.vertices, [](const auto& v) { return v && v->intensity != 1; });
+    if (dims) context.budget.take(context.sizePx, place);
+    const double gamma = decideIntensityGamma(mesh, decisions);
+    return meshOnDisplay(mesh, context.sizePx, source, gamma, path);
+}
+
 SgctShown bentByMesh(const SgctContext& context, const FileBytes& file, Decisions& decisions) {
     if (!isMeshFile(file))
         throw InputError(file.path, "", "a correction mesh that SGCT knows", "a file that begins like none");
@@ -104,39 +124,98 @@ SgctShown bentByMesh(const SgctContext& context, const FileBytes& file, Decision
             sgctPicture(context.viewport.projection, screen, context.eye, decisions).projection;
     }
     source.projection = mirroredOf(context, std::move(source.projection));
-    const double gamma = decideIntensityGamma(mesh, decisions);
-    return {meshOnDisplay(mesh, context.sizePx, source, gamma, file.path), "warp_mesh"};
+    return {chargedMesh(context, mesh, source, file.path, decisions), "warp_mesh"};
 }
 
-// Maps for both eyes lie side by side; SGCT draws the left one, whichever eye it is for.
-NumberMap leftHalf(const NumberMap& map, const FileBytes& file) {
-    if (map.sizePx.x < 4 || map.sizePx.x % 2 != 0)
+enum class StereoHalf { none, left, right };
+
+NumberMap columnsOf(const NumberMap& map, int begin, int count) {
+    NumberMap part{{count, map.sizePx.y}, map.channels, map.isInteger, {}};
+    const auto rowLength = static_cast<ptrdiff_t>(count) * map.channels;
+    for (int y = 0; y < map.sizePx.y; ++y)
+        part.values.insert(part.values.end(), map.at(begin, y), map.at(begin, y) + rowLength);
+    return part;
+}
+
+// Forward maps for both eyes lie side by side.
+NumberMap decideHalf(NumberMap map, bool isForward, const FileBytes& file, Decisions& decisions) {
+    const std::string evidence =
+        isForward
+            ? fmt::format("SGCT draws the left half of the {} columns, whichever eye it is for", map.sizePx.x)
+            : fmt::format("SGCT takes all {} columns for one map", map.sizePx.x);
+    const auto half = decisions.choose<StereoHalf>(
+        "stereo_half", {{"none", StereoHalf::none}, {"left", StereoHalf::left}, {"right", StereoHalf::right}},
+        isForward ? StereoHalf::left : StereoHalf::none, evidence);
+    if (half == StereoHalf::none) return map;
+    const int columns = map.sizePx.x / 2;
+    if (columns < 2 || map.sizePx.x % 2 != 0)
         throw InputError(file.path, "", "maps of two eyes side by side, which have an even number of columns",
                          fmt::format("{} columns", map.sizePx.x));
-    NumberMap half{{map.sizePx.x / 2, map.sizePx.y}, map.channels, map.isInteger, {}};
-    const auto rowLength = static_cast<ptrdiff_t>(half.sizePx.x) * map.channels;
-    for (int y = 0; y < map.sizePx.y; ++y)
-        half.values.insert(half.values.end(), map.at(0, y), map.at(0, y) + rowLength);
-    return half;
+    return columnsOf(map, half == StereoHalf::left ? 0 : columns, columns);
 }
 
 // Whatever PFM says of its rows, SGCT takes the first one of the file for the top, and values grow upwards.
+// Whether that agrees with the numbers is told beside it.
+MapMeaning decideMapMeaning(const SgctContext& context, const FileBytes& file, MapDirection direction,
+                            const NumberMap& map, Decisions& decisions) {
+    const bool isForward = direction == MapDirection::forward, hasPfmRows = isPfm(file.bytes);
+    const MapSurvey s = surveyMap(map, hasPfmRows);
+    MapMeaning meaning{.direction = direction};
+    meaning.isOffset = decisions.choose<bool>(
+        "map_values", {{"absolute", false}, {"offset", true}}, false,
+        fmt::format("SGCT reads positions; the numbers are {:.3f} to {:.3f} and {:.3f} to {:.3f}{}", s.low.x,
+                    s.high.x, s.low.y, s.high.y, looksLikeOffsets(s) ? ", as offsets would be" : ""));
+    const std::string rows = fmt::format(
+        "the second number is {:.3f} on the average of the file's first rows and {:.3f} of the last",
+        s.firstRowsY, s.lastRowsY);
+    meaning.yUp = decisions.choose<bool>(isForward ? "screen_y" : "source_v", {{"up", true}, {"down", false}},
+                                         true, "SGCT counts upwards, as OpenGL does; " + rows);
+    const bool isTopFirst =
+        decisions.choose<bool>("row_order", {{"bottom_first", false}, {"top_first", true}}, true,
+                               "SGCT takes the first row for the top, whatever PFM says; " + rows);
+    meaning.bottomRowFirst = hasPfmRows == isTopFirst;
+    constexpr double kSays = 0.05;
+    const double falls = (meaning.yUp == isTopFirst ? 1 : -1) * (s.firstRowsY - s.lastRowsY);
+    if (!meaning.isOffset && falls < -kSays)
+        decisions.warn(fmt::format("{}.mesh: {} shows its picture upside down: {}", context.viewport.place,
+                                   file.name(), rows));
+    const std::string nodes = fmt::format("{} x {} nodes for {} x {} pixels", map.sizePx.x, map.sizePx.y,
+                                          context.sizePx.x, context.sizePx.y);
+    meaning.alignment = decisions.choose<Alignment>(
+        "node_alignment", {{"centers", Alignment::centers}, {"corners", Alignment::corners}},
+        isForward ? Alignment::centers : Alignment::corners,
+        (isForward ? "SGCT puts the nodes at the centres of their cells: "
+                   : "SGCT spreads the nodes to the borders of the screen: ") +
+            nodes);
+    if (isForward)
+        meaning.cells = decideCells(map.sizePx, CellCut::alternating,
+                                    "SGCT draws a strip of triangles that runs to and fro", decisions);
+    else
+        decisions.choose<bool>("interpolation", {{"bilinear", true}}, true,
+                               "between nodes nothing was measured: " + nodes);
+    return meaning;
+}
+
 SgctShown bentByMap(const SgctContext& context, const FileBytes& file, Decisions& decisions) {
     const auto* planar = std::get_if<SgctPlanar>(&context.viewport.projection);
+    const bool isTextureMapped = planar && planar->isTextureMapped;
     const SgctPicture picture =
         sgctPicture(context.viewport.projection, {context.sizePx}, context.eye, decisions);
     const SourcePicture source{context.sizePx, mirroredOf(context, picture.projection)};
+    const auto direction = decisions.choose<MapDirection>(
+        "map_direction", {{"forward", MapDirection::forward}, {"inverse", MapDirection::inverse}},
+        isTextureMapped ? MapDirection::inverse : MapDirection::forward,
+        isTextureMapped ? "SGCT reads the PFM of a TextureMappedProjection so"
+                        : "SGCT reads the PFM of any projection but a TextureMappedProjection so");
+    const bool isForward = direction == MapDirection::forward;
+    const std::string place = context.viewport.place + ".mesh";
     NumberMap map = readNumberMap(file);
-    MapMeaning meaning{.bottomRowFirst = true, .yUp = true};
-    if (planar && planar->isTextureMapped) {
-        meaning.direction = MapDirection::inverse;
-        meaning.alignment = Alignment::corners;
-    } else {
-        map = leftHalf(map, file);
-        meaning.direction = MapDirection::forward;
-        meaning.cells = decideCells(map.sizePx, CellCut::alternating,
-                                    "SGCT draws a strip of triangles that runs to and fro", decisions);
-    }
+    context.budget.take(map.sizePx, place);
+    map = decideHalf(std::move(map), isForward, file, decisions);
+    const MapMeaning meaning = decideMapMeaning(context, file, direction, map, decisions);
+    if (isForward)
+        return {chargedMesh(context, meshOfMap(map, meaning, file.path), source, file.path, decisions),
+                "warp_mesh"};
     return {{projectionOfMap(map, meaning, context.sizePx, source, file.path), {}}, "camera_texture"};
 }
 
@@ -171,9 +250,8 @@ SgctShown mirrorShown(const SgctContext& context, const SgctMirror& mirror, Deci
             all.cells.push_back(cell);
         }
     }
-    const double gamma = decideIntensityGamma(all, decisions);
     const SourcePicture source{atlas->sizePx(), atlas};
-    return {meshOnDisplay(all, context.sizePx, source, gamma, context.viewport.place), "warp_mesh"};
+    return {chargedMesh(context, all, source, context.viewport.place, decisions), "warp_mesh"};
 }
 
 void multiply(std::vector<glm::vec3>& factors, const std::vector<glm::vec3>& others) {
@@ -194,12 +272,19 @@ void mirror(std::vector<glm::vec3>& picture, const SgctContext& context) {
             std::swap_ranges(rowAt(y), rowAt(y) + width, rowAt(context.sizePx.y - 1 - y));
 }
 
+int64_t texels(glm::ivec2 sizePx) { return int64_t{sizePx.x} * sizePx.y; }
+
+// A picture of the size of its display, as most are, costs no more than the mask that it becomes.
 std::vector<glm::vec3> readMask(const SgctContext& context, const char* key, const std::string& name,
                                 Decisions& decisions) {
     const double gamma =
         decisions.number("blend_gamma", {0.1, 10}, 2.2, "SGCT multiplies encoded colours by the mask");
-    std::vector<glm::vec3> mask = readBlendPicture(context.find(key, name), context.sizePx, gamma,
-                                                   context.viewport.place + "." + key, decisions);
+    const std::string place = context.viewport.place + "." + key;
+    context.budget.take(context.sizePx, place);
+    const FileBytes file = context.find(key, name);
+    const NumberMap picture = readNumberMap(file);
+    if (texels(picture.sizePx) > texels(context.sizePx)) context.budget.take(picture.sizePx, place);
+    std::vector<glm::vec3> mask = linearPicture(picture, file.path, context.sizePx, gamma, place, decisions);
     mirror(mask, context);
     return mask;
 }

@@ -4,6 +4,7 @@
 #include "calibration/formats/calibration_file.h"
 #include "calibration/formats/mesh_calibration.h"
 #include "calibration/formats/sgct_projection.h"
+#include "calibration/formats/texel_budget.h"
 
 #include <functional>
 #include <string>
@@ -21,6 +22,7 @@ struct SgctContext {
     double aspect = 1;  // of the viewport on the window, width over height
     SgctEye eye{};
     SgctFindNamed find;
+    TexelBudget& budget;  // of the wall
 };
 
 // What the viewport shows: its picture, bent by its mesh if it has one.

@@ -13,7 +13,9 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -25,14 +27,20 @@ using nlohmann::json;
 constexpr Range kAnyNumber{-1e9, 1e9};
 constexpr Range kAngleDeg{-3600, 3600};
 constexpr Range kFraction{0, 1};
-constexpr size_t kMostParts = 4096;  // of nodes, windows or viewports in one list
+constexpr size_t kMostParts = 256;  // nodes, windows, viewports or users of a configuration
+
+// What the fields of one configuration find together.
+struct SgctFindings {
+    std::vector<std::string> unknownKeys{};
+    std::map<std::string, size_t> parts{};  // by the key of their lists
+};
 
 // One JSON object, read leniently: numbers and truth values may be texts, as XML has them, and keys that
 // nobody asks for are collected.
 class SgctFields {
 public:
-    SgctFields(const json& object, std::string place, std::vector<std::string>& unknown)
-        : object_(object), place_(std::move(place)), unknown_(unknown) {
+    SgctFields(const json& object, std::string place, SgctFindings& findings)
+        : object_(object), place_(std::move(place)), findings_(findings) {
         if (!object.is_object())
             throw FieldError(FieldError::Kind::shape, place_, "an object", describe(object));
     }
@@ -81,7 +89,7 @@ public:
     std::optional<SgctFields> object(const char* key) {
         const json* value = find(key);
         if (!value || value->is_null()) return std::nullopt;
-        return SgctFields(*value, placeOf(key), unknown_);
+        return SgctFields(*value, placeOf(key), findings_);
     }
 
     SgctFields requiredObject(const char* key) {
@@ -94,12 +102,14 @@ public:
         const json* value = find(key);
         std::vector<SgctFields> list;
         if (!value) return list;
-        if (!value->is_array() || value->size() > kMostParts)
+        if (!value->is_array())
+            throw FieldError(FieldError::Kind::shape, placeOf(key), "a list of objects", describe(*value));
+        if (const size_t count = findings_.parts[key] += value->size(); count > kMostParts)
             throw FieldError(FieldError::Kind::shape, placeOf(key),
-                             fmt::format("a list of at most {} objects", kMostParts),
-                             value->is_array() ? fmt::format("{}", value->size()) : describe(*value));
+                             fmt::format("at most {} {} in a configuration", kMostParts, key),
+                             std::to_string(count));
         for (size_t i = 0; i < value->size(); ++i)
-            list.emplace_back((*value)[i], fmt::format("{}[{}]", placeOf(key), i), unknown_);
+            list.emplace_back((*value)[i], fmt::format("{}[{}]", placeOf(key), i), findings_);
         return list;
     }
 
@@ -112,7 +122,7 @@ public:
 
     void collectUnknownKeys() const {
         for (const auto& [key, value] : object_.items())
-            if (std::ranges::find(known_, key) == known_.end()) unknown_.push_back(placeOf(key));
+            if (std::ranges::find(known_, key) == known_.end()) findings_.unknownKeys.push_back(placeOf(key));
     }
 
 private:
@@ -125,7 +135,7 @@ private:
     const json& object_;
     std::string place_;
     std::vector<std::string_view> known_;
-    std::vector<std::string>& unknown_;
+    SgctFindings& findings_;
 };
 
 std::optional<glm::dvec2> readVector2(SgctFields& parent, const char* key, Range range) {
@@ -257,16 +267,16 @@ SgctMirror readMirror(SgctFields& fields) {
 }
 
 int readQuality(SgctFields& fields) {
-    constexpr std::array<std::pair<std::string_view, int>, 11> kWords{{{"", 512},
-                                                                       {"low", 256},
-                                                                       {"medium", 512},
-                                                                       {"high", 1024},
-                                                                       {"1k", 1024},
-                                                                       {"1.5k", 1536},
-                                                                       {"2k", 2048},
-                                                                       {"4k", 4096},
-                                                                       {"8k", 8192},
-                                                                       {"16k", 16384}}};
+    constexpr auto kWords = std::to_array<std::pair<std::string_view, int>>({{"", 512},
+                                                                             {"low", 256},
+                                                                             {"medium", 512},
+                                                                             {"high", 1024},
+                                                                             {"1k", 1024},
+                                                                             {"1.5k", 1536},
+                                                                             {"2k", 2048},
+                                                                             {"4k", 4096},
+                                                                             {"8k", 8192},
+                                                                             {"16k", 16384}});
     const std::string quality = lowerCase(fields.text("quality"));
     for (const auto& [word, px] : kWords)
         if (quality == word) return px;
@@ -426,13 +436,13 @@ void warnOfScene(SgctFields& root, Decisions& decisions) {
 }
 
 SgctDocument readCluster(const json& root, Decisions& decisions) {
-    std::vector<std::string> unknown;
-    SgctFields fields(root, "", unknown);
+    SgctFindings findings;
+    SgctFields fields(root, "", findings);
     SgctDocument document;
     for (SgctFields& node : fields.objects("nodes")) document.nodes.push_back(readNode(node));
     for (SgctFields& user : fields.objects("users")) document.users.push_back(readUser(user, decisions));
     warnOfScene(fields, decisions);
-    if (!unknown.empty()) {
+    if (const std::vector<std::string>& unknown = findings.unknownKeys; !unknown.empty()) {
         constexpr size_t kMostNamed = 8;
         std::string names;
         for (size_t i = 0; i < std::min(unknown.size(), kMostNamed); ++i)

@@ -1,10 +1,12 @@
 #include "calibration/formats/sgct_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/formats/mesh_file.h"
 #include "calibration/formats/sgct_correction.h"
 #include "calibration/formats/sgct_document.h"
 #include "calibration/formats/sgct_projection.h"
+#include "calibration/formats/texel_budget.h"
 #include "calibration/readers/projection_fields.h"
 
 #include <fmt/format.h>
@@ -29,13 +31,6 @@ struct Part {
     const std::string& place() const { return viewport ? viewport->place : window->place; }
 };
 
-// Names become parts of file names.
-std::string withoutSlashes(std::string name) {
-    std::ranges::replace_if(
-        name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; }, '_');
-    return name;
-}
-
 // What tells one of several apart: nothing where there is one, its name where no other has it, or its number.
 template <class Item, class NameOf>
 std::string labelOf(const std::vector<Item>& items, size_t index, const char* kind, const NameOf& nameOf) {
@@ -54,22 +49,15 @@ std::string joined(std::initializer_list<std::string> labels) {
 }
 
 bool showsSomething(const SgctWindow& window, Decisions& decisions) {
-    if (window.copyOf) {
-        decisions.warn(
-            fmt::format("{}.blitwindowid: the window is a copy of window {}; it is read by its own "
-                        "projection",
-                        window.place, *window.copyOf));
-        return true;
-    }
-    if (!window.drawsScene)
-        decisions.warn(window.place + ".draw3d: the window does not show the scene and is left out");
-    return window.drawsScene;
+    if (window.copyOf || window.drawsScene) return true;
+    decisions.warn(window.place + ".draw3d: the window does not show the scene and is left out");
+    return false;
 }
 
 std::vector<Part> partsOf(const SgctDocument& document, const std::string& fileName, Decisions& decisions) {
     std::vector<Part> parts;
     const auto add = [&](const SgctWindow& window, const SgctViewport* viewport, const std::string& name) {
-        parts.push_back({&window, viewport, withoutSlashes(name.empty() ? fileName : name)});
+        parts.push_back({&window, viewport, safeDisplayName(name.empty() ? fileName : name)});
     };
     for (size_t n = 0; n < document.nodes.size(); ++n) {
         const SgctNode& node = document.nodes[n];
@@ -99,28 +87,31 @@ void preferViewportNames(std::vector<Part>& parts) {
     for (const Part& part : parts)
         if (!part.viewport || part.viewport->name.empty() || !names.insert(part.viewport->name).second)
             return;
-    for (Part& part : parts) part.name = withoutSlashes(part.viewport->name);
+    for (Part& part : parts) part.name = safeDisplayName(part.viewport->name);
 }
 
 void makeNamesUnique(std::vector<Part>& parts) {
-    std::set<std::string> names;
-    for (Part& part : parts) {
-        const std::string name = part.name;
-        for (int number = 2; !names.insert(part.name).second; ++number)
-            part.name = fmt::format("{}-{}", name, number);
-    }
+    std::set<std::string> taken;
+    for (Part& part : parts) part.name = uniqueName(part.name, taken);
 }
 
-const SgctUser& userOf(const SgctDocument& document, const std::string& name, Decisions& decisions) {
+std::string nameOfUser(const Part& part) { return part.viewport ? part.viewport->user : std::string(); }
+
+struct FoundUser {
+    const SgctUser& user;
+    bool isNamed = true;  // as it was asked for
+};
+
+FoundUser userOf(const SgctDocument& document, const Part& part) {
     static const SgctUser kNobody;
     const auto named = [&](const std::string& wanted) {
         return std::ranges::find(document.users, wanted, &SgctUser::name);
     };
-    if (const auto user = named(name); user != document.users.end()) return *user;
-    if (!name.empty())
-        decisions.warn(fmt::format("users: none is named \"{}\"; the default one is taken", name));
-    if (const auto user = named(""); user != document.users.end()) return *user;
-    return document.users.empty() ? kNobody : document.users.front();
+    const std::string name = nameOfUser(part);
+    if (const auto user = named(name); user != document.users.end()) return {*user};
+    const bool isNamed = name.empty();
+    if (const auto user = named(""); user != document.users.end()) return {*user, isNamed};
+    return {document.users.empty() ? kNobody : document.users.front(), isNamed};
 }
 
 bool isStereo(const SgctWindow& window) {
@@ -128,22 +119,17 @@ bool isStereo(const SgctWindow& window) {
            window.stereo != "dummy";
 }
 
-std::string nameOfUser(const Part& part) { return part.viewport ? part.viewport->user : std::string(); }
-
 std::string textOf(glm::dvec3 v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }
 
-// The eye is the same for all displays of a wall.
-SgctEye decideEye(const SgctDocument& document, const std::vector<Part>& parts,
-                  const CalibrationRequest& request, Decisions& decisions) {
-    const SgctUser& user = userOf(document, nameOfUser(parts.front()), decisions);
-    for (const Part& part : parts)
-        if (const SgctUser& other = userOf(document, nameOfUser(part), decisions);
-            other.positionM != user.positionM)
-            decisions.warn(fmt::format("{}.user: \"{}\" is elsewhere; the wall has one eye, that of \"{}\"",
-                                       part.place(), other.name, user.name));
+void warnOfOtherEye(const SgctUser& user, const CalibrationRequest& request, Decisions& decisions) {
     if (request.eyeM && *request.eyeM != user.positionM)
         decisions.warn(fmt::format("users: the eye {} was asked for; the user of the file is at {}",
                                    textOf(*request.eyeM), textOf(user.positionM)));
+}
+
+// The eye is the same for all displays of a wall.
+SgctEye decideEye(const SgctUser& user, const std::vector<Part>& parts, const CalibrationRequest& request,
+                  Decisions& decisions) {
     SgctEye eye{.userM = request.eyeM.value_or(user.positionM)};
     eye.eyeM = eye.userM;
     const bool anyStereo = std::ranges::any_of(parts, [](const Part& part) {
@@ -181,6 +167,25 @@ std::optional<glm::ivec2> sizeOf(const FileBytes& file, const Part& part) {
     return glm::ivec2(sizePx);
 }
 
+void warnOfUser(const SgctDocument& document, const Part& part, const SgctUser& ofWall,
+                Decisions& decisions) {
+    const FoundUser own = userOf(document, part);
+    if (!own.isNamed)
+        decisions.warn(fmt::format("{}.user: no user is named \"{}\"; the default one is taken", part.place(),
+                                   nameOfUser(part)));
+    if (own.user.positionM != ofWall.positionM)
+        decisions.warn(fmt::format("{}.user: \"{}\" is elsewhere; the wall has one eye, that of \"{}\"",
+                                   part.place(), own.user.name, ofWall.name));
+}
+
+void warnOfCopy(const Part& part, Decisions& decisions) {
+    if (part.window->copyOf)
+        decisions.warn(
+            fmt::format("{}.blitwindowid: the window is a copy of window {}; it is read by its own "
+                        "projection",
+                        part.window->place, *part.window->copyOf));
+}
+
 void warnOfStereo(const Part& part, Decisions& decisions) {
     if (isStereo(*part.window))
         decisions.warn(fmt::format("{}.stereo: {} is for two eyes; the picture of one is taken",
@@ -203,11 +208,15 @@ class SgctReader {
 public:
     SgctReader(const FileBytes& file, const FindFile& find, const CalibrationRequest& request, bool isXml,
                SgctEye eye)
-        : file_(file), find_(find), request_(request), isXml_(isXml), eye_(eye) {}
+        : file_(file),
+          find_(find),
+          request_(request),
+          isXml_(isXml),
+          eye_(eye),
+          budget_(file.path, file.bytes.size()) {}
 
-    // Each with its own decisions, which go on with the wall's.
-    std::vector<Display> displaysOf(const Part& part, const Decisions& ofWall) const {
-        Decisions decisions = ofWall;
+    std::vector<Display> displaysOf(const Part& part, Decisions& decisions) {
+        warnOfCopy(part, decisions);
         if (!part.viewport) return displaysOfWindowFile(part, decisions);
         warnOfStereo(part, decisions);
         warnOfShiftedCube(part, eye_, decisions);
@@ -230,7 +239,7 @@ private:
                          "none of that name beside the configuration");
     }
 
-    Display displayOf(const Part& part, Decisions& decisions) const {
+    Display displayOf(const Part& part, Decisions& decisions) {
         const SgctViewport& viewport = *part.viewport;
         requireKnown(viewport);
         Display display;
@@ -243,7 +252,8 @@ private:
             display.sizePx,
             part.window->aspect ? *part.window->aspect * viewport.size.x / viewport.size.y : size.x / size.y,
             eye_,
-            [&](const std::string& key, const std::string& name) { return named(part, key, name); }};
+            [&](const std::string& key, const std::string& name) { return named(part, key, name); },
+            budget_};
         SgctShown shown = sgctShown(context, decisions);
         display.projection = std::move(shown.display.projection);
         display.projectionType = shown.type;
@@ -282,7 +292,8 @@ private:
         return displays;
     }
 
-    std::vector<Display> displaysOfWindowFile(const Part& part, Decisions& decisions) const {
+    // What these files hold in memory is taken to be in proportion to their displays.
+    std::vector<Display> displaysOfWindowFile(const Part& part, Decisions& decisions) {
         const bool isMesh = part.window->mpcdi.empty();
         const FileBytes file = isMesh ? named(part, "scalablemesh", part.window->scalableMesh)
                                       : named(part, "mpcdi", part.window->mpcdi);
@@ -292,12 +303,16 @@ private:
         if (isMesh) {
             Display display = meshDisplay(readMesh(file, find_, decisions), file, request, decisions);
             display.name = part.name;
+            if (display.blend) budget_.take(display.sizePx, part.place() + ".scalablemesh");
             return {std::move(display)};
         }
         if (isSgctFile(file)) throw InputError(file.path, "", "an MPCDI archive", "a configuration of SGCT");
         std::vector<Display> displays = readCalibration(file, find_, request, decisions).displays;
         const bool isOne = displays.size() == 1;
-        for (Display& display : displays) display.name = isOne ? part.name : part.name + "-" + display.name;
+        for (Display& display : displays) {
+            display.name = isOne ? part.name : part.name + "-" + display.name;
+            budget_.take(display.sizePx, part.place() + ".mpcdi");
+        }
         return displays;
     }
 
@@ -306,6 +321,7 @@ private:
     const CalibrationRequest& request_;
     bool isXml_;
     SgctEye eye_;
+    TexelBudget budget_;  // of all displays
 };
 
 // Whether the part may have the display that was asked for; those of several displays add to its name.
@@ -346,17 +362,26 @@ bool isSgctFile(const FileBytes& file) { return isSgctDocument(file); }
 
 Wall readSgctFile(const FileBytes& file, const FindFile& find, const CalibrationRequest& request,
                   Decisions& decisions) {
-    const SgctDocument document = readSgctDocument(file, decisions);
-    std::vector<Part> all = partsOf(document, file.stem(), decisions);
+    Decisions ofWall = decisions;  // with what is said of no display alone
+    const SgctDocument document = readSgctDocument(file, ofWall);
+    std::vector<Part> all = partsOf(document, file.stem(), ofWall);
     preferViewportNames(all);
     makeNamesUnique(all);
     const std::vector<Part> parts = wantedParts(file, std::move(all), request.display);
-    const SgctEye eye = decideEye(document, parts, request, decisions);
+    const SgctUser& user = userOf(document, parts.front()).user;
+    warnOfOtherEye(user, request, ofWall);
+    const SgctEye eye = decideEye(user, parts, request, decisions);
     Wall wall{.name = file.stem(), .eyeM = eye.eyeM, .background = backgroundOf(parts)};
-    const SgctReader reader(file, find, request, document.isXml, eye);
-    for (const Part& part : parts)
-        for (Display& display : reader.displaysOf(part, decisions))
-            wall.displays.push_back(std::move(display));
+    SgctReader reader(file, find, request, document.isXml, eye);
+    for (const Part& part : parts) {
+        Decisions own = decisions;
+        warnOfUser(document, part, user, own);
+        for (Display& display : reader.displaysOf(part, own)) wall.displays.push_back(std::move(display));
+    }
+    if (!wall.displays.empty()) {
+        std::vector<std::string>& first = wall.displays.front().warnings;
+        first.insert(first.begin(), ofWall.warnings().begin(), ofWall.warnings().end());
+    }
     return wall;
 }
 

@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/formats/blend_files.h"
+#include "calibration/formats/display_names.h"
 #include "calibration/formats/map_decisions.h"
 #include "calibration/formats/vioso_blocks.h"
 #include "calibration/formats/vioso_config.h"
@@ -128,16 +129,9 @@ BlendMapsPtr readBlend(const ViosoWarp& warp, const std::string& path, glm::ivec
     return std::make_shared<const BlendMaps>(std::move(blend));
 }
 
-std::string uniqueName(const FileBytes& file, const ViosoWarp& warp, size_t count,
-                       std::set<std::string>& taken) {
-    std::string name = warp.name.empty() ? file.stem() : warp.name;
-    std::ranges::replace_if(
-        name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' '; }, '_');
-    if (warp.name.empty() && count > 1) name += "-1";
-    std::string unique = name;
-    for (int i = 2; !taken.insert(unique).second; ++i)
-        unique = fmt::format("{}-{}", warp.name.empty() ? file.stem() : name, i);
-    return unique;
+std::string nameOf(const FileBytes& file, const std::vector<ViosoWarp>& warps, size_t index) {
+    if (!warps[index].name.empty()) return warps[index].name;
+    return warps.size() == 1 ? file.stem() : fmt::format("{}-{}", file.stem(), index + 1);
 }
 
 std::vector<std::optional<ViosoView>> viewsOf(const FileBytes& file, const FindFile& find, size_t warps) {
@@ -178,7 +172,7 @@ Wall readViosoFile(const FileBytes& file, const FindFile& find, const Calibratio
     for (size_t i = 0; i < warps.size(); ++i) {
         const ViosoWarp& warp = warps[i];
         Display display;
-        display.name = uniqueName(file, warp, warps.size(), taken);
+        display.name = uniqueName(safeDisplayName(nameOf(file, warps, i)), taken);
         if (!request.display.empty() && display.name != request.display) continue;
         if (warp.numbers.values.empty()) {
             decisions.warn(warp.place + ": a warp without data, which makes no display");

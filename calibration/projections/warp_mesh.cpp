@@ -72,11 +72,6 @@ WarpMesh::WarpMesh(std::vector<WarpVertex> vertices, const std::vector<WarpCell>
 
 WarpMesh::~WarpMesh() = default;
 
-bool WarpMesh::changesBrightness() const {
-    return !std::ranges::all_of(vertices_,
-                                [](const WarpVertex& v) { return v.intensity == 1 || !v.isValid; });
-}
-
 bool WarpMesh::isHole(const WarpCell& cell) const {
     for (int i = 0; i < cornersOf(cell); ++i)
         if (!vertices_[cell.vertices[static_cast<size_t>(i)]].isValid) return true;
@@ -175,7 +170,6 @@ ProjectionPtr WarpMeshProjection::seenFrom(glm::dvec3 eyeM) const {
 }
 
 std::vector<float> linearIntensity(const WarpMesh& mesh, glm::ivec2 sizePx, double gamma) {
-    if (!mesh.changesBrightness()) return {};
     std::vector<float> factors(static_cast<size_t>(sizePx.x) * static_cast<size_t>(sizePx.y), 1.0f);
     parallelRanges(sizePx.y, [&](int begin, int end) {
         for (int y = begin; y < end; ++y)

@@ -44,7 +44,6 @@ public:
     WarpMesh& operator=(const WarpMesh&) = delete;
 
     bool hasArea() const { return !cells_.empty(); }  // at least one cell is no hole
-    bool changesBrightness() const;                   // an intensity is not one
 
     struct Sample {
         glm::dvec2 sourcePx;

@@ -61,20 +61,23 @@ std::string namesOf(const std::vector<Display>& displays) {
 }
 
 // The displays of a file that another program wrote; their names are the file's where the wall gives none.
-std::vector<Display> readCalibrated(JsonFields& fields, const WallFolder& folder, glm::dvec3 eyeM) {
+// Its eye becomes `eyeM` where nobody said before where the eye is.
+std::vector<Display> readCalibrated(JsonFields& fields, const WallFolder& folder,
+                                    std::optional<glm::dvec3>& eyeM) {
     JsonFields calibration = fields.required("calibration", fields.object("calibration"));
     const std::string path = requiredPath(calibration, "file", folder);
     CalibrationRequest request{.eyeM = eyeM};
     request.display = calibration.text("display").value_or("");
     if (const auto size = fields.wholeNumbers("size", 2, 1, kMostPx)) request.sizePx = pixelsOf(*size);
     if (auto source = calibration.object("source"))
-        request.source = readSource(*source, {folder, eyeM, glm::ivec2(0)});
+        request.source = readSource(*source, {folder, eyeM.value_or(glm::dvec3(0)), glm::ivec2(0)});
     Decisions decisions = givenDecisions(calibration);
     calibration.refuseUnknownKeys();
 
     Wall wall = readCalibration(readFile(path, "a calibration"), filesBeside(path, &folder.files), request,
                                 decisions);
     decisions.refuseUnusedKeys();
+    if (!eyeM) eyeM = wall.eyeM;
     if (fields.has("name")) {
         if (wall.displays.size() > 1)
             throw FieldError(FieldError::Kind::value, calibration.nameOf("display"),
@@ -93,7 +96,8 @@ std::vector<Display> readCalibrated(JsonFields& fields, const WallFolder& folder
     return std::move(wall.displays);
 }
 
-std::vector<Display> readDisplays(JsonFields& fields, const WallFolder& folder, glm::dvec3 eyeM) {
+std::vector<Display> readDisplays(JsonFields& fields, const WallFolder& folder,
+                                  std::optional<glm::dvec3>& eyeM) {
     if (fields.has("calibration") && fields.has("projection"))
         throw FieldError(FieldError::Kind::shape, fields.nameOf("projection"),
                          "a projection or a calibration", "both");
@@ -102,7 +106,7 @@ std::vector<Display> readDisplays(JsonFields& fields, const WallFolder& folder, 
         if (fields.has("calibration"))
             displays = readCalibrated(fields, folder, eyeM);
         else
-            displays.push_back(readDisplay(fields, folder, eyeM));
+            displays.push_back(readDisplay(fields, folder, eyeM.value_or(glm::dvec3(0))));
     } catch (const UsageError& error) {
         throw FieldError(FieldError::Kind::value,
                          fields.nameOf(fields.has("calibration") ? "calibration" : "projection"),
@@ -117,13 +121,21 @@ Wall readFields(JsonFields fields, const std::string& path) {
     wall.files = {path};
     const WallFolder folder{std::filesystem::path(path).parent_path(), wall.files};
     wall.name = readName(fields, "wall");
-    wall.eyeM = vector3(fields, "eye", kAnywhereM).value_or(glm::dvec3(0));
     wall.background = vector3(fields, "background", {0, 1}).value_or(glm::dvec3(0));
+    std::optional<glm::dvec3> eyeM = vector3(fields, "eye", kAnywhereM);
+    std::vector<JsonFields> entries = fields.objects("displays");
+    std::vector<std::vector<Display>> displays(entries.size());
+    // Calibrations first: the first one may tell where the eye of all displays is.
+    for (const bool calibrated : {true, false})
+        for (size_t i = 0; i < entries.size(); ++i)
+            if (entries[i].has("calibration") == calibrated)
+                displays[i] = readDisplays(entries[i], folder, eyeM);
+    wall.eyeM = eyeM.value_or(glm::dvec3(0));
     std::set<std::string> names;
-    for (JsonFields& entry : fields.objects("displays"))
-        for (Display& display : readDisplays(entry, folder, wall.eyeM)) {
+    for (size_t i = 0; i < entries.size(); ++i)
+        for (Display& display : displays[i]) {
             if (!names.insert(display.name).second)
-                throw FieldError(FieldError::Kind::value, entry.nameOf("name"), "a name of its own",
+                throw FieldError(FieldError::Kind::value, entries[i].nameOf("name"), "a name of its own",
                                  "\"" + display.name + "\" again");
             wall.displays.push_back(std::move(display));
         }

@@ -102,6 +102,14 @@ TEST_F(SgctFile, GivesNoNameTwice) {
                 ElementsAre("a_b", "a_b-2"));
 }
 
+TEST_F(SgctFile, GivesNamesInUtf8) {
+    const std::string xml =
+        "<Cluster><Node address=\"a\"><Window name=\"K\xFCppel\"><Size x=\"64\" y=\"32\"/>"
+        "<Viewport/></Window><Window name=\"b\x7F\"><Size x=\"64\" y=\"32\"/><Viewport/>"
+        "</Window></Node></Cluster>";
+    EXPECT_THAT(namesOf(xml), ElementsAre("K\xC3\xBCppel", "b_"));
+}
+
 TEST_F(SgctFile, CutsWindowsIntoViewportsFromTheBottomLeftWithoutLosingAPixel) {
     std::string viewports;
     for (const char* place :
@@ -282,7 +290,7 @@ TEST_F(SgctFile, ReadsTheLeftHalfOfAPfmMeshAsPositionsOnTheScreen) {
                                          {0.25, 0.375}, {0.75, 0.375}, {0, 0}, {0, 0}};
     files_["warp.pfm"] = pfm({4, 2}, values);
     const Wall wall = read(configuration(windowOf(viewportOf(R"(, "mesh": "warp.pfm")"))));
-    EXPECT_EQ(wall.displays[0].projectionType, "camera_texture");
+    EXPECT_EQ(wall.displays[0].projectionType, "warp_mesh");
     expectRay(wall.displays[0], {16, 4}, {-0.5, 0.5, -1}, 1e-6);   // the first node
     expectRay(wall.displays[0], {48, 20}, {0.5, -0.5, -1}, 1e-6);  // the last one
     expectRay(wall.displays[0], {32, 12}, {0, 0, -1}, 1e-6);
@@ -299,6 +307,64 @@ TEST_F(SgctFile, ReadsThePfmOfATextureMappedProjectionAsPositionsInThePicture) {
     expectRay(wall.displays[0], {0, 32}, {-1, -1, -1}, 1e-6);
     EXPECT_THAT(complaintAbout(configuration(windowOf(viewport + "}"))),
                 HasSubstr("mesh: expected the map of a TextureMappedProjection"));
+}
+
+std::map<std::string, std::string> assumed(const Display& display) {
+    std::map<std::string, std::string> values;
+    for (const Assumption& a : display.assumptions) values[a.key] = a.value;
+    return values;
+}
+
+std::string evidenceOf(const Display& display, const std::string& key) {
+    for (const Assumption& a : display.assumptions)
+        if (a.key == key) return a.evidence;
+    return "nothing";
+}
+
+TEST_F(SgctFile, ListsWhatSgctTakesForGrantedInPfmMaps) {
+    const std::vector<glm::dvec2> values{{0.25, 0.875}, {0.75, 0.875}, {0, 0}, {0, 0},
+                                         {0.25, 0.375}, {0.75, 0.375}, {0, 0}, {0, 0}};
+    files_["warp.pfm"] = pfm({4, 2}, values);
+    const std::string forward = configuration(windowOf(viewportOf(R"(, "mesh": "warp.pfm")")));
+    Wall wall = read(forward);
+    using Words = std::map<std::string, std::string>;
+    EXPECT_EQ(assumed(wall.displays[0]), (Words{{"map_direction", "forward"},
+                                                {"stereo_half", "left"},
+                                                {"map_values", "absolute"},
+                                                {"screen_y", "up"},
+                                                {"row_order", "top_first"},
+                                                {"node_alignment", "centers"},
+                                                {"interpolation", "triangles_alternating"}}));
+    EXPECT_THAT(evidenceOf(wall.displays[0], "row_order"), HasSubstr("0.875 on the average of the file's"));
+    EXPECT_THAT(wall.displays[0].warnings, IsEmpty());
+
+    decisions_ = Decisions(json{{"row_order", "bottom_first"}, {"screen_y", "down"}});
+    wall = read(forward);
+    expectRay(wall.displays[0], {16, 28}, {-0.5, -0.5, -1}, 1e-6);  // the first node
+    EXPECT_THAT(wall.displays[0].warnings, IsEmpty());
+    decisions_ = Decisions(json{{"row_order", "bottom_first"}});
+    EXPECT_THAT(read(forward).displays[0].warnings, ElementsAre(HasSubstr("upside down")));
+
+    decisions_ = Decisions(json{{"map_direction", "inverse"}, {"stereo_half", "left"}});
+    wall = read(forward);
+    EXPECT_EQ(wall.displays[0].projectionType, "camera_texture");
+    expectRay(wall.displays[0], {0, 0}, {-0.5, 0.75, -1}, 1e-6);
+    EXPECT_EQ(assumed(wall.displays[0]), (Words{{"map_direction", "inverse"},
+                                                {"stereo_half", "left"},
+                                                {"map_values", "absolute"},
+                                                {"source_v", "up"},
+                                                {"row_order", "top_first"},
+                                                {"node_alignment", "corners"},
+                                                {"interpolation", "bilinear"}}));
+}
+
+TEST_F(SgctFile, TakesTheHalfOfAPfmMeshThatIsAskedFor) {
+    const std::vector<glm::dvec2> values{{0, 0}, {0, 0}, {0.25, 0.875}, {0.75, 0.875},
+                                         {0, 0}, {0, 0}, {0.25, 0.375}, {0.75, 0.375}};
+    files_["warp.pfm"] = pfm({4, 2}, values);
+    decisions_ = Decisions(json{{"stereo_half", "right"}});
+    const Wall wall = read(configuration(windowOf(viewportOf(R"(, "mesh": "warp.pfm")"))));
+    expectRay(wall.displays[0], {16, 4}, {-0.5, 0.5, -1}, 1e-6);
 }
 
 // x in units of the height, on a screen of 2:1.
@@ -384,6 +450,66 @@ TEST_F(SgctFile, TakesTheFisheyesBackgroundForTheWalls) {
         R"({"projection": {"type": "FisheyeProjection", "background": {"r": 1, "g": 0.5, "b": 0, "a": 1}}})")));
     EXPECT_NEAR(wall.background.r, 1, 1e-6);
     EXPECT_NEAR(wall.background.g, 0.21404, 1e-5);
+}
+
+TEST_F(SgctFile, WarnsAtADisplayOnlyOfWhatConcernsIt) {
+    const std::string copy = windowOf(viewportOf(), R"(, "blitwindowid": 1)");
+    const Wall wall = read(configuration(windowOf(viewportOf()) + "," + copy + "," + copy + "," +
+                                         windowOf(viewportOf(), R"(, "zoom": 2, "draw3d": false)")));
+    ASSERT_EQ(wall.displays.size(), 3U);
+    EXPECT_THAT(wall.displays[0].warnings,
+                ElementsAre(HasSubstr("not known and passed over"), HasSubstr("windows[3].draw3d")));
+    EXPECT_THAT(wall.displays[1].warnings, ElementsAre(HasSubstr("windows[1].blitwindowid")));
+    EXPECT_THAT(wall.displays[2].warnings, ElementsAre(HasSubstr("windows[2].blitwindowid")));
+}
+
+TEST_F(SgctFile, TellsWhereAUserIsNotTheWalls) {
+    const std::string viewports =
+        viewportOf() + "," + viewportOf(R"(, "user": "guest")") + "," + viewportOf(R"(, "user": "nobody")");
+    const Wall wall = read(configuration(
+        windowOf(viewports), R"(, "users": [{}, {"name": "guest", "pos": {"x": 0, "y": 0, "z": 1}}])"));
+    EXPECT_THAT(wall.displays[0].warnings, IsEmpty());
+    EXPECT_THAT(wall.displays[1].warnings,
+                ElementsAre(HasSubstr("viewports[1].user: \"guest\" is elsewhere")));
+    EXPECT_THAT(wall.displays[2].warnings,
+                ElementsAre(HasSubstr("viewports[2].user: no user is named \"nobody\"")));
+}
+
+TEST_F(SgctFile, RefusesMoreViewportsThanAnyWallHas) {
+    const auto viewports = [](int count) {
+        std::string list = viewportOf();
+        for (int i = 1; i < count; ++i) list += "," + viewportOf();
+        return list;
+    };
+    EXPECT_EQ(read(configuration(windowOf(viewports(256)))).displays.size(), 256U);
+    EXPECT_THAT(complaintAbout(configuration(windowOf(viewports(128)) + "," + windowOf(viewports(129)))),
+                HasSubstr("nodes[0].windows[1].viewports: expected at most 256 viewports in a configuration, "
+                          "found 257"));
+}
+
+// The first window's file takes all that a wall may; the masks are not made then.
+TEST_F(SgctFile, RefusesToSpendMoreMemoryThanAWallMay) {
+    files_["warp.data"] = bourke(1);
+    files_["mask.png"] = png({1, 1}, {0.5F});
+    const std::string text = configuration(windowOf("", R"(, "mpcdi": "warp.data")") + "," +
+                                           windowOf(viewportOf(R"(, "blendmask": "mask.png")")));
+    request_.sizePx = {64, 64};
+    EXPECT_EQ(read(text).displays.size(), 2U);
+    request_.sizePx = {16384, 16384};
+    EXPECT_THAT(complaintAbout(text),
+                HasSubstr("nodes[0].windows[1].viewports[0].blendmask: expected maps and "
+                          "blended displays of at most"));
+}
+
+TEST_F(SgctFile, ChargesTheIntensitiesOfMeshes) {
+    files_["warp.data"] = bourke(1);
+    files_["dims.data"] = "2\n2 2\n-1 -1 0 0 0.5\n1 -1 1 0 0.5\n-1 1 0 1 0.5\n1 1 1 1 0.5\n";
+    request_.sizePx = {16384, 16384};
+    for (const char* mesh : {"warp.data", "dims.data"})
+        EXPECT_THAT(
+            complaintAbout(configuration(windowOf("", R"(, "mpcdi": "warp.data")") + "," +
+                                         windowOf(viewportOf(fmt::format(R"(, "mesh": "{}")", mesh))))),
+            mesh == std::string("warp.data") ? HasSubstr("nothing") : HasSubstr("viewports[0].mesh"));
 }
 
 TEST_F(SgctFile, RefusesWhatItCannotUseWithThePlace) {

@@ -3,6 +3,7 @@
 #include "calibration/errors.h"
 #include "calibration/files/map_file.h"
 #include "calibration/readers/wall_reader.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/temporary_folder.h"
 
 #include <glm/geometric.hpp>
@@ -112,6 +113,37 @@ TEST_F(CalibratedDisplay, AFileMayHoldSeveralWithNamesOfItsOwn) {
     EXPECT_GT(right.displays[0].projection->unproject({20, 15})->x, 0);
 }
 
+TEST_F(CalibratedDisplay, ACalibrationTellsTheWallItsEyeUnlessTheWallFileDoes) {
+    folder_.write("config.json", R"({"version": 1, "masteraddress": "localhost",
+        "users": [{"eyeseparation": 0.06, "pos": {"x": 0, "y": 0, "z": 1.5}}],
+        "nodes": [{"address": "localhost", "port": 20400, "windows": [{"size": {"x": 64, "y": 48}, "viewports": [
+            {"projection": {"type": "ProjectionPlane", "lowerleft": {"x": -1, "y": -1, "z": -1},
+             "upperleft": {"x": -1, "y": 1, "z": -1}, "upperright": {"x": 1, "y": 1, "z": -1}}}]}]}]})");
+    const json flat{{"name", "flat"},
+                    {"size", {64, 48}},
+                    {"projection",
+                     {{"type", "planar"},
+                      {"lower_left", {-1, -1, -1}},
+                      {"lower_right", {1, -1, -1}},
+                      {"upper_left", {-1, 1, -1}}}}};
+    const json calibrated{{"name", "calibrated"}, {"calibration", {{"file", "config.json"}}}};
+    json wall{{"wall", "w"}, {"displays", {flat, calibrated}}};
+    const auto rightBorder = [&](const Wall& read, size_t display) {
+        const glm::dvec3 ray = *read.displays[display].projection->unproject({64, 24});
+        return ray.x / -ray.z;
+    };
+    const Wall fromFile = readWall(folder_.write("wall.json", wall.dump()));
+    EXPECT_EQ(fromFile.eyeM, glm::dvec3(0, 0, 1.5));
+    EXPECT_EQ(fromFile.displays[0].name, "flat");
+    EXPECT_NEAR(rightBorder(fromFile, 0), 1 / 2.5, 1e-9);
+    EXPECT_NEAR(rightBorder(fromFile, 1), 1 / 2.5, 1e-9);
+    wall["eye"] = {0, 0, 0};
+    const Wall fromWall = readWall(folder_.write("wall.json", wall.dump()));
+    EXPECT_EQ(fromWall.eyeM, glm::dvec3(0));
+    EXPECT_NEAR(rightBorder(fromWall, 0), 1, 1e-9);
+    EXPECT_NEAR(rightBorder(fromWall, 1), 1, 1e-9);
+}
+
 TEST_F(CalibratedDisplay, ABlendOfTheWallFileTakesThePlaceOfTheFiles) {
     NumberMap alpha{{64, 32}, 1, false, std::vector<float>(64 * 32, 1.0f)};
     writePng16(folder_.path("alpha.png"), alpha);
@@ -135,6 +167,24 @@ TEST_F(CalibratedDisplay, MistakesNameTheFieldAndWhatThereIs) {
     json both = mesh();
     both["projection"] = {{"type", "frustum"}};
     EXPECT_THAT(complaintAbout(both), HasSubstr("a projection or a calibration"));
+}
+
+// Where every cell lies over every other one each pixel would have to look at all of them.
+TEST_F(CalibratedDisplay, AMeshWithoutOrderIsRefused) {
+    test::Random random(11);
+    std::string text = "2\n20 20\n";
+    for (int i = 0; i < 400; ++i)
+        text += std::to_string(random.uniform(-1.7, 1.7)) + " " + std::to_string(random.uniform(-1, 1)) +
+                " " + std::to_string(random.uniform(0, 1)) + " " + std::to_string(random.uniform(0, 1)) +
+                " 0.5\n";
+    folder_.write("mesh.data", text);
+    EXPECT_THAT(complaintAbout(mesh()), HasSubstr("times"));
+}
+
+TEST_F(CalibratedDisplay, FactorsOfGigabytesAreRefused) {
+    json display = mesh();
+    display["size"] = {16384, 8192};
+    EXPECT_THAT(complaintAbout(display), HasSubstr("intensities"));
 }
 
 TEST_F(CalibratedDisplay, ABareFileIsAWallOfItself) {

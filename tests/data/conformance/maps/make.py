@@ -114,3 +114,30 @@ case("one_row", "A map needs 2 x 2 nodes.", pfm([[(0, 0.5, 0), (1, 0.5, 0)]]), e
 case("truncated", "A file that ends before its numbers do is refused.", pfm(CORNERS)[:-1], error="bytes of numbers")
 case("lying_size", "A header that promises more than there is is refused before memory is taken.",
      b"PF\n16384 16384\n-1.0\n" + struct.pack("<3f", 0, 0, 0), error="bytes of numbers")
+
+
+def exr(rows):
+    """Three float channels without compression; rows from the top."""
+    def attribute(name, kind, value):
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(value)) + value
+
+    height, width = len(rows), len(rows[0])
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    channels = b"".join(c + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for c in (b"B", b"G", b"R")) + b"\0"
+    header = struct.pack("<II", 20000630, 2) + attribute(b"channels", b"chlist", channels)
+    header += attribute(b"compression", b"compression", b"\0") + attribute(b"dataWindow", b"box2i", window)
+    header += attribute(b"displayWindow", b"box2i", window) + attribute(b"lineOrder", b"lineOrder", b"\0")
+    header += attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
+    header += attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0))
+    header += attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0"
+    line = 8 + 12 * width
+    offsets = [len(header) + 8 * height + y * line for y in range(height)]
+    data = b"".join(struct.pack("<2i", y, 12 * width) +
+                    b"".join(struct.pack("<f", node[c]) for c in (2, 1, 0) for node in row)
+                    for y, row in enumerate(rows))
+    return header + struct.pack(f"<{height}Q", *offsets) + data
+
+
+folder.write("surface_exr.exr", exr(WALL[::-1]))
+folder.case("surface_exr", "An EXR holds points in R, G and B; its rows begin at the top.", "surface_exr.exr", size=SIZE,
+            assumptions={"map_kind": "surface"}, rays=SEEN)

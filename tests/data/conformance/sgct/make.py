@@ -231,6 +231,9 @@ def plane_cases():
          config([projected('ProjectionPlane', lowerleft=vector(ll), upperleft=vector(ul), upperright=vector(ur))],
                 users=[{'pos': vector(eye)}]), CORNERS, lambda s, t: plane(s, t, ll, ul, ur, [0, 0, 3]),
          eye=[0, 0, 3], warning='the eye (0, 0, 3) was asked for')
+    case('eye_of_the_file', "the wall's eye is the user's where nobody says otherwise",
+         config([projected('PlanarProjection', fov=ANGLES)], users=[{'pos': vector([0, 0, 4])}]), CORNERS,
+         lambda s, t: planar(s, t, 30, 40, 10, 20, eye=[0, 0, 4]), assumptions={'distance_m': '10'})
     case('no_projection', 'a viewport without a projection shows a square of 2 x 2 m at a distance of 2 m',
          config([{}]), CORNERS, lambda s, t: plane(s, t, [-1, -1, -2], [-1, 1, -2], [1, 1, -2], [0, 0, 0]))
     named = config([projected('ProjectionPlane', lowerleft=vector(ll), upperleft=vector(ul), upperright=vector(ur))],
@@ -323,6 +326,34 @@ def mesh_cases():
          'screen from its top left corner to its bottom right one',
          config([projected('TextureMappedProjection', fov={'hfov': 90, 'vfov': 90}, mesh='left_half.pfm')]), CORNERS,
          lambda s, t: planar(s / 2, t, 45, 45, 45, 45))
+    both = config([square(mesh='both_eyes.pfm')])
+    case('pfm_forward_listed', 'what SGCT takes for granted in such a map is listed', both, [(0.25, 0.875)],
+         lambda s, t: planar(s, t - 0.125, 45, 45, 45, 45),
+         assumptions={'map_direction': 'forward', 'stereo_half': 'left', 'map_values': 'absolute', 'screen_y': 'up',
+                      'row_order': 'top_first', 'node_alignment': 'centers',
+                      'interpolation': 'triangles_alternating'})
+    case('pfm_forward_other_rows', 'and may be overruled: with its first row at the bottom, y down, the picture is '
+         'turned over', both, [(0.25, 0.125), (0.75, 0.625)], lambda s, t: planar(s, t + 0.125, 45, 45, 45, 45),
+         assume={'row_order': 'bottom_first', 'screen_y': 'down'})
+    case('pfm_forward_upside_down', 'an order of rows that the numbers contradict is worth a warning', both,
+         [(0.25, 0.875)], lambda s, t: planar(s, 0.25, 45, 45, 45, 45),
+         assume={'row_order': 'bottom_first'}, warning='shows its picture upside down')
+    write('right_eye.pfm', pfm(4, 2, [(0, 0), (0, 0), (0.25, 0.875), (0.75, 0.875),
+                                      (0, 0), (0, 0), (0.25, 0.375), (0.75, 0.375)]))
+    case('pfm_forward_right', 'the right half of such a map may be asked for', config([square(mesh='right_eye.pfm')]),
+         [(0.25, 0.875), (0.75, 0.375)], lambda s, t: planar(s, t - 0.125, 45, 45, 45, 45),
+         assume={'stereo_half': 'right'})
+    case('pfm_forward_corners', 'nodes may lie on the borders of the picture',
+         both, [(0.25, 0.875), (0.75, 0.375)],
+         lambda s, t: planar((s - 0.25) * 2, (t - 0.375) * 2, 45, 45, 45, 45), assume={'node_alignment': 'corners'})
+    listed = config([projected('TextureMappedProjection', fov={'hfov': 90, 'vfov': 90}, mesh='left_half.pfm')])
+    case('pfm_inverse_listed', 'of an inverse map it is listed, too', listed, [(0, 0)],
+         lambda s, t: planar(s / 2, t, 45, 45, 45, 45),
+         assumptions={'map_direction': 'inverse', 'stereo_half': 'none', 'map_values': 'absolute', 'source_v': 'up',
+                      'row_order': 'top_first', 'node_alignment': 'corners', 'interpolation': 'bilinear'})
+    case('pfm_inverse_other_rows', 'and may be overruled', listed, [(0, 0), (0.5, 0.25)],
+         lambda s, t: planar(s / 2, 1 - t, 45, 45, 45, 45), assume={'source_v': 'down'},
+         warning='shows its picture upside down')
     case('texture_mapped_without_map', 'a texture mapped projection needs its map',
          config([projected('TextureMappedProjection', fov={'hfov': 90, 'vfov': 90})]),
          error='expected the map of a TextureMappedProjection')
@@ -357,6 +388,8 @@ def mesh_cases():
 
 
 def window_cases():
+    case('most_viewports', 'a configuration may have 256 viewports', config([square()] * 257),
+         error='at most 256 viewports in a configuration')
     case('framebuffer', 'res is the size of the picture, not size',
          config([square()], window={'res': {'x': 256, 'y': 64}}), CORNERS,
          lambda s, t: planar(s, t, 45, 45, 45, 45), width=256, height=64)
