@@ -52,7 +52,8 @@ OIIO::ImageSpec asStored() {
     return options;
 }
 
-NumberMap readPixels(OIIO::ImageInput& in, const std::string& path, uint64_t fileBytes) {
+NumberMap readPixels(OIIO::ImageInput& in, const std::string& path, uint64_t fileBytes,
+                     const AllowSize& allow = {}) {
     const auto fail = [&path](const std::string& found) {
         return InputError(path, "", "a readable image", found);
     };
@@ -65,6 +66,7 @@ NumberMap readPixels(OIIO::ImageInput& in, const std::string& path, uint64_t fil
 
     NumberMap map{{spec.width, spec.height}, spec.nchannels, !spec.format.is_floating_point(), {}};
     requirePlausibleSize(path, fileBytes, map);
+    if (allow) allow(map.sizePx);
     map.values.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
                       static_cast<size_t>(spec.nchannels));
     if (!in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, map.values.data()))
@@ -97,8 +99,8 @@ NumberMap readNumberMap(const std::string& path) {
     return readPixels(*in, path, error ? 0 : bytes);
 }
 
-NumberMap readNumberMap(const FileBytes& file) {
-    if (isPfm(file.bytes)) return parsePfm(file);
+NumberMap readNumberMap(const FileBytes& file, const AllowSize& allow) {
+    if (isPfm(file.bytes)) return parsePfm(file, allow);
     const Picture* picture = pictureOf(file.bytes);
     if (!picture)
         throw InputError(file.path, "", "a PFM, EXR, PNG, TIFF, JPEG or BMP",
@@ -113,7 +115,7 @@ NumberMap readNumberMap(const FileBytes& file) {
     OIIO::ImageSpec spec;
     if (!in || !in->set_ioproxy(&reader) || !in->open(file.path, spec, options))
         throw InputError(file.path, "", "a readable image", in ? in->geterror() : OIIO::geterror());
-    return readPixels(*in, file.path, file.bytes.size());
+    return readPixels(*in, file.path, file.bytes.size(), allow);
 }
 
 bool isPicture(std::string_view bytes) { return pictureOf(bytes) != nullptr; }

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@ struct NumberMap {
     int channels = 0;
     bool isInteger = false;     // the file holds 8 or 16-bit integers; they come as fractions of the largest
     std::vector<float> values;  // row 0 is the top row; channels are interleaved
+    double scale = 1;           // of a PFM, which says that the numbers are in units of it; not applied
 
     const float* at(int x, int y) const {
         return &values[(static_cast<size_t>(y) * static_cast<size_t>(sizePx.x) + static_cast<size_t>(x)) *
@@ -35,8 +37,10 @@ void requirePlausibleSize(const std::string& path, uint64_t fileBytes, const Num
 // multiplied in. Throws InputError.
 NumberMap readNumberMap(const std::string& path);
 
-// The same from memory, for PFM and for the pictures that isPicture knows.
-NumberMap readNumberMap(const FileBytes& file);
+// The same from memory, for PFM and for the pictures that isPicture knows. `allow` gets the size that the
+// header says, before the memory for it is taken, and may throw.
+using AllowSize = std::function<void(glm::ivec2 sizePx)>;
+NumberMap readNumberMap(const FileBytes& file, const AllowSize& allow = {});
 
 // Whether the bytes begin like EXR, PNG, TIFF, JPEG or BMP.
 bool isPicture(std::string_view bytes);

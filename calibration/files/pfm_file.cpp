@@ -92,7 +92,7 @@ void requireByteOrder(const Input& input, const NumberMap& map, const std::strin
                       "numbers that make sense only in the other one");
 }
 
-NumberMap readFrom(Input input) {
+NumberMap readFrom(Input input, const AllowSize& allow = {}) {
     NumberMap map;
     map.channels = nextWord(input) == "PF" ? 3 : 1;
     const std::string width = nextWord(input), height = nextWord(input), scale = nextWord(input);
@@ -110,6 +110,8 @@ NumberMap readFrom(Input input) {
     if (input.bytesLeft != expected)
         throw input.error(std::to_string(expected) + " bytes of numbers after the PFM header",
                           std::to_string(input.bytesLeft));
+    map.scale = std::abs(order);
+    if (allow) allow(map.sizePx);
     map.values.resize(rowValues * static_cast<size_t>(map.sizePx.y));
     for (auto row = static_cast<size_t>(map.sizePx.y); row-- > 0;)
         if (!input.in.read(reinterpret_cast<char*>(&map.values[row * rowValues]),
@@ -127,10 +129,10 @@ bool isPfm(std::string_view bytes) {
     return bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f') && isSpace(bytes[2]);
 }
 
-NumberMap parsePfm(const FileBytes& file) {
+NumberMap parsePfm(const FileBytes& file, const AllowSize& allow) {
     BytesBuffer buffer(file.bytes);
     std::istream in(&buffer);
-    return readFrom({in, file.bytes.size(), file.path});
+    return readFrom({in, file.bytes.size(), file.path}, allow);
 }
 
 bool isPfmFile(const std::string& path) {

@@ -51,8 +51,13 @@ glm::vec3 filteredAt(const NumberMap& map, glm::dvec2 fraction) {
 }  // namespace
 
 std::vector<glm::vec3> readBlendPicture(const FileBytes& file, glm::ivec2 sizePx, double gamma,
-                                        const std::string& place, Decisions& decisions) {
-    return linearPicture(readNumberMap(file), file.path, sizePx, gamma, place, decisions);
+                                        const std::string& place, Decisions& decisions, TexelBudget* budget) {
+    const NumberMap map = readNumberMap(file, [&](glm::ivec2 pictureSizePx) {
+        if (budget && pictureSizePx != sizePx) budget->take(pictureSizePx, place);
+    });
+    if (map.scale != 1)
+        decisions.warn(fmt::format("{}: the scale {:g} of {} is not used", place, map.scale, file.name()));
+    return linearPicture(map, file.path, sizePx, gamma, place, decisions);
 }
 
 std::vector<glm::vec3> linearPicture(const NumberMap& map, const std::string& path, glm::ivec2 sizePx,

@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace curvewall {
+namespace {
+
+constexpr size_t kMostWarnings = 100;
+
+}  // namespace
 
 Decisions::Decisions(nlohmann::json given, std::string name)
     : given_(std::move(given)), name_(std::move(name)), asked_(std::make_shared<std::set<std::string>>()) {}
@@ -60,7 +65,10 @@ std::string Decisions::text(const char* key, const std::string& guess, const std
 
 void Decisions::warn(const std::string& text) {
     std::string warning = validUtf8(text);
-    if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
+    if (std::ranges::find(warnings_, warning) != warnings_.end()) return;
+    if (moreWarnings_ > 0) warnings_.pop_back();
+    if (warnings_.size() == kMostWarnings) warning = fmt::format("and {} more", ++moreWarnings_);
+    warnings_.push_back(std::move(warning));
 }
 
 void Decisions::refuseUnusedKeys() const {

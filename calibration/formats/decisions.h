@@ -41,7 +41,8 @@ public:
     // The same for a name, of a file for example.
     std::string text(const char* key, const std::string& guess, const std::string& evidence);
 
-    // What contradicts itself, and where: "buffer[0].region[2]: ...".
+    // What contradicts itself, and where: "buffer[0].region[2]: ...". Of more than a hundred warnings the
+    // last one says how many there are besides.
     void warn(const std::string& text);
 
     const std::vector<Assumption>& taken() const { return taken_; }
@@ -62,6 +63,7 @@ private:
     std::shared_ptr<std::set<std::string>> asked_;
     std::vector<Assumption> taken_;
     std::vector<std::string> warnings_;
+    size_t moreWarnings_ = 0;
 };
 
 template <class Value>

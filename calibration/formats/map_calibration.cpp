@@ -15,7 +15,7 @@
 namespace curvewall {
 namespace {
 
-constexpr int64_t kMostForwardNodes = int64_t{1} << 22;
+constexpr int64_t kMostMeshNodes = int64_t{1} << 22;
 constexpr double kNoPoint = 1e-5;
 
 void requireNodes(const NumberMap& map, int channels, const std::string& path) {
@@ -86,15 +86,15 @@ ProjectionPtr inverseProjection(const NumberMap& map, const MapMeaning& meaning,
 ProjectionPtr projectionOfMap(const NumberMap& map, const MapMeaning& meaning, glm::ivec2 sizePx,
                               const SourcePicture& source, const std::string& path) {
     requireNodes(map, 2, path);
-    if (meaning.direction == MapDirection::inverse)
+    if (meaning.direction == MapDirection::inverse && meaning.cells.empty())
         return inverseProjection(map, meaning, sizePx, source, path);
     return meshOnDisplay(meshOfMap(map, meaning, path), sizePx, source, 1, path).projection;
 }
 
 MeshCalibration meshOfMap(const NumberMap& map, const MapMeaning& meaning, const std::string& path) {
     requireNodes(map, 2, path);
-    if (int64_t{map.sizePx.x} * map.sizePx.y > kMostForwardNodes)
-        throw InputError(path, "", fmt::format("a forward map of at most {} nodes", kMostForwardNodes),
+    if (int64_t{map.sizePx.x} * map.sizePx.y > kMostMeshNodes)
+        throw InputError(path, "", fmt::format("at most {} nodes of a mesh", kMostMeshNodes),
                          fmt::format("{} x {}", map.sizePx.x, map.sizePx.y));
     MeshCalibration mesh;
     mesh.cells = meaning.cells;
@@ -103,8 +103,12 @@ MeshCalibration meshOfMap(const NumberMap& map, const MapMeaning& meaning, const
             const int y = meaning.bottomRowFirst ? map.sizePx.y - 1 - row : row;
             const auto value = valueOf(map, meaning, x, y);
             mesh.vertices.emplace_back();
-            if (value)
-                mesh.vertices.back() = {*value, inRect(meaning.sourceRect, placeOf(map, meaning, x, y))};
+            if (!value) continue;
+            const glm::dvec2 place = placeOf(map, meaning, x, y);
+            if (meaning.direction == MapDirection::forward)
+                mesh.vertices.back() = {*value, inRect(meaning.sourceRect, place)};
+            else
+                mesh.vertices.back() = {place, inRect(meaning.sourceRect, *value)};
         }
     return mesh;
 }

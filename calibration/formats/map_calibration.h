@@ -33,17 +33,19 @@ struct MapMeaning {
     bool bottomRowFirst = false;               // row 0 of the numbers lies at the bottom
     bool yUp = false;                          // the second number grows upwards
     PictureRect sourceRect{};                  // the part of the source that the map speaks of
-    std::vector<WarpCell> cells{};             // of a forward map, from its top row down
+    // From the top row of nodes down. A forward map needs them; an inverse map with cells is drawn as a mesh
+    // of its nodes and reaches only from the first to the last of them, and one without is bilinear.
+    std::vector<WarpCell> cells{};
 };
 
 // Projection of a display of `sizePx` with the map, onto what `source` shows. Nodes that are not finite and
 // those at (-1, -1), as some programs mark what they did not measure, are holes. Throws InputError, with
-// `path`, for a map of less than 2 x 2 nodes or two channels or without area, and for a forward map of more
+// `path`, for a map of less than 2 x 2 nodes or two channels or without area, and for one with cells of more
 // than four million nodes.
 ProjectionPtr projectionOfMap(const NumberMap& map, const MapMeaning& meaning, glm::ivec2 sizePx,
                               const SourcePicture& source, const std::string& path);
 
-// A forward map as a mesh. Throws in the same way.
+// A map with cells as a mesh. Throws in the same way.
 MeshCalibration meshOfMap(const NumberMap& map, const MapMeaning& meaning, const std::string& path);
 
 // Where points of a file lie in the wall: rotation (or mirroring) first.

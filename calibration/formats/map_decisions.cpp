@@ -97,12 +97,30 @@ bool looksLikeOffsets(const MapSurvey& s) {
     return isSmall && (isCentred || (s.low.x < kNegative && s.low.y < kNegative));
 }
 
+namespace {
+
+bool isCoarseGrid(const MapFile& map) {
+    return 2 * map.numbers.sizePx.x <= map.sizePx.x && 2 * map.numbers.sizePx.y <= map.sizePx.y;
+}
+
+// None for the bilinear cells of an inverse map.
+std::vector<WarpCell> decideInverseCells(const MapFile& map, Decisions& decisions) {
+    using Cut = std::optional<CellCut>;
+    const Cut cut =
+        decisions.choose<Cut>("interpolation",
+                              {{"bilinear", std::nullopt},
+                               {"triangles", CellCut::firstToLast},
+                               {"triangles_across", CellCut::across},
+                               {"triangles_alternating", CellCut::alternating}},
+                              std::nullopt, "textures are read so; between its nodes nothing was measured");
+    return cut ? trianglesOfGrid(map.numbers.sizePx, *cut) : std::vector<WarpCell>{};
+}
+
+}  // namespace
+
 Alignment decideAlignment(const MapFile& map, Decisions& decisions) {
     const glm::ivec2 nodes = map.numbers.sizePx;
-    const bool isCoarse = 2 * nodes.x <= map.sizePx.x && 2 * nodes.y <= map.sizePx.y;
-    if (isCoarse)
-        decisions.choose<bool>("interpolation", {{"bilinear", true}}, true,
-                               "textures are read so; between its nodes nothing was measured");
+    const bool isCoarse = isCoarseGrid(map);
     return decisions.choose<Alignment>(
         "node_alignment", {{"centers", Alignment::centers}, {"corners", Alignment::corners}},
         isCoarse ? Alignment::corners : Alignment::centers,
@@ -150,7 +168,20 @@ MapMeaning decideMeaning(const MapFile& map, MapDirection direction, bool isOffs
         meaning.cells =
             decideCells(map.numbers.sizePx, isOffset ? CellCut::firstToLast : CellCut::alternating,
                         "as SGCT cuts the cells of such a map", decisions);
+    else if (isCoarseGrid(map))
+        meaning.cells = decideInverseCells(map, decisions);
     return meaning;
+}
+
+void decideScale(NumberMap& map, Decisions& decisions) {
+    if (map.scale == 1) return;
+    const bool isFactor = decisions.choose<bool>(
+        "scale", {{"ignored", false}, {"factor", true}}, false,
+        fmt::format("the PFM's scale is {:g}; programs that read warp maps look at its sign only",
+                    map.scale));
+    if (!isFactor) return;
+    for (float& number : map.values) number = static_cast<float>(number * map.scale);
+    map.scale = 1;
 }
 
 PointFrame decideFrame(const KnownFrame& known, const MapSurvey& survey, Decisions& decisions) {

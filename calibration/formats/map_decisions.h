@@ -27,6 +27,9 @@ MapSurvey surveyMap(const NumberMap& map, bool isPfm);
 // Whether the numbers are offsets from where the nodes lie, not positions.
 bool looksLikeOffsets(const MapSurvey& survey);
 
+// Whether the numbers are to be multiplied by the scale of a PFM that has another one than 1.
+void decideScale(NumberMap& map, Decisions& decisions);
+
 struct MapFile {
     const NumberMap& numbers;
     MapSurvey survey;
@@ -35,8 +38,9 @@ struct MapFile {
     std::string name;      // for warnings
 };
 
-// Row order, node alignment, the direction of the second number and, of forward maps, how cells are filled;
-// of maps that are a forward or an inverse one, of offsets or positions.
+// Row order, node alignment, the direction of the second number and, of forward maps and of grids that are
+// coarser than the display, how cells are filled; of maps that are a forward or an inverse one, of offsets or
+// positions.
 MapMeaning decideMeaning(const MapFile& map, MapDirection direction, bool isOffset, Decisions& decisions);
 
 bool decideBottomRowFirst(const MapFile& map, Decisions& decisions);  // of points

@@ -118,6 +118,7 @@ Wall readMapFile(const FileBytes& file, const FindFile&, const CalibrationReques
     if (map.channels < 2)
         throw InputError(file.path, "", "a map of two or three channels", "one of one channel");
     const int columns = map.sizePx.x;
+    decideScale(map, decisions);
     map = decideHalf(std::move(map), decisions);
     MapFile described{map, surveyMap(map, isPfm(file.bytes)), isPfm(file.bytes), {}, file.name()};
     if (!described.survey.hasNodes) throw InputError(file.path, "", "a map", "no valid sample anywhere");
@@ -141,7 +142,7 @@ Wall readMapFile(const FileBytes& file, const FindFile&, const CalibrationReques
         const MapMeaning meaning =
             decideMeaning(described, kind == MapKind::inverse ? MapDirection::inverse : MapDirection::forward,
                           isOffset, decisions);
-        display.projectionType = kind == MapKind::inverse ? "camera_texture" : "warp_mesh";
+        display.projectionType = meaning.cells.empty() ? "camera_texture" : "warp_mesh";
         const SourcePicture source = request.source
                                          ? *request.source
                                          : decideSource(false, "the map does not say what its picture shows",

@@ -75,11 +75,21 @@ MpcdiFrame frameOf(const XmlElement& element) {
     return frame;
 }
 
+// Every region of an id gets a copy of both.
+constexpr size_t kMostWord = 64, kMostPath = 4096;
+
+std::string pathOf(const XmlElement& element) {
+    std::string path = childText(element, "path");
+    if (path.size() > kMostPath) throw element.error("a path of at most 4096 bytes", "a longer one");
+    return path;
+}
+
 std::optional<MpcdiWarp> warpOf(const std::optional<XmlElement>& element) {
     if (!element || childText(*element, "path").empty()) return std::nullopt;
-    return MpcdiWarp{childText(*element, "path"), lowerCase(childText(*element, "interpolation")),
-                     lowerCase(childText(*element, "geometricUnit")),
-                     lowerCase(childText(*element, "originOf3DData"))};
+    const auto word = [&](const char* name) {
+        return lowerCase(childText(*element, name)).substr(0, kMostWord);
+    };
+    return MpcdiWarp{pathOf(*element), word("interpolation"), word("geometricUnit"), word("originOf3DData")};
 }
 
 std::optional<MpcdiPicture> pictureOf(const std::optional<XmlElement>& element) {
@@ -87,7 +97,7 @@ std::optional<MpcdiPicture> pictureOf(const std::optional<XmlElement>& element) 
     const auto gamma = element->childNumber("gammaEmbedded");
     if (gamma && !(*gamma >= 0.1 && *gamma <= 10))
         throw element->error("a gammaEmbedded from 0.1 to 10", std::to_string(*gamma));
-    return MpcdiPicture{childText(*element, "path"), gamma};
+    return MpcdiPicture{pathOf(*element), gamma};
 }
 
 MpcdiFisheye fisheyeOf(const XmlElement& fisheye, const std::optional<XmlElement>& anamorphic) {
@@ -112,18 +122,28 @@ MpcdiFisheye fisheyeOf(const XmlElement& fisheye, const std::optional<XmlElement
     return lens;
 }
 
-// What belongs to a region, from its file set or from the region itself.
-void readFiles(const XmlElement& files, MpcdiRegion& region) {
-    const auto set = [](auto& place, auto value) {
-        if (!place) place = std::move(value);
-    };
-    set(region.warp, warpOf(files.child("geometryWarpFile")));
-    set(region.distortion, warpOf(files.child("distortionMap")));
-    set(region.alpha, pictureOf(files.child("alphaMap")));
-    set(region.beta, pictureOf(files.child("betaMap")));
+MpcdiFiles filesOf(const XmlElement& element) {
+    MpcdiFiles files{warpOf(element.child("geometryWarpFile")),
+                     warpOf(element.child("distortionMap")),
+                     pictureOf(element.child("alphaMap")),
+                     pictureOf(element.child("betaMap")),
+                     {}};
     for (const char* name : {"decodeLUT", "correctLUT", "encodeLUT"})
-        if (const auto table = files.child(name); table && !childText(*table, "path").empty())
-            region.unread.emplace_back(name);
+        if (const auto table = element.child(name); table && !childText(*table, "path").empty())
+            files.unread.insert(name);
+    return files;
+}
+
+// What is named twice is what came first.
+void addFiles(MpcdiFiles& files, const MpcdiFiles& more) {
+    const auto add = [](auto& place, const auto& value) {
+        if (!place) place = value;
+    };
+    add(files.warp, more.warp);
+    add(files.distortion, more.distortion);
+    add(files.alpha, more.alpha);
+    add(files.beta, more.beta);
+    files.unread.insert(more.unread.begin(), more.unread.end());
 }
 
 MpcdiRegion regionOf(const XmlElement& element) {
@@ -140,20 +160,32 @@ MpcdiRegion regionOf(const XmlElement& element) {
         region.frustum = frustumOf(*frustum);
     if (const auto frame = element.child("coordinateFrame"); frame && !frame->children().empty())
         region.frame = frameOf(*frame);
-    readFiles(element, region);
+    addFiles(region, filesOf(element));
     return region;
 }
 
+// Those of one id. They are read when a region asks for them, and once for all regions of that id.
+struct FileSets {
+    std::vector<XmlElement> unread;
+    MpcdiFiles files;
+
+    const MpcdiFiles& read() {
+        for (const XmlElement& set : unread) addFiles(files, filesOf(set));
+        unread.clear();
+        return files;
+    }
+};
+
 // What the file says of regions elsewhere, by their id.
 struct Elsewhere {
-    std::map<std::string, std::vector<XmlElement>> fileSets;
+    std::map<std::string, FileSets> fileSets;
     std::map<std::pair<std::string, std::string>, XmlElement> extended;  // by the buffer's id first
 };
 
 Elsewhere readElsewhere(const XmlElement& root) {
     Elsewhere elsewhere;
     for (const XmlElement& set : root.descendants("fileset"))
-        elsewhere.fileSets[attributeText(set, "region")].push_back(set);
+        elsewhere.fileSets[attributeText(set, "region")].unread.push_back(set);
     for (const XmlElement& extension : root.descendants("extension"))
         for (const XmlElement& buffer : extension.children("buffer"))
             for (const XmlElement& region : buffer.children("region"))
@@ -162,6 +194,8 @@ Elsewhere readElsewhere(const XmlElement& root) {
                                                    region);
     return elsewhere;
 }
+
+bool hasPose(const MpcdiDocument& document) { return document.profile == "3d" || document.profile == "sl"; }
 
 }  // namespace
 
@@ -173,7 +207,7 @@ MpcdiDocument parseMpcdi(const FileBytes& manifest) {
         manifest.path, lowerCase(attributeText(root, "profile")), attributeText(root, "version"), {}};
     const auto display = root.child("display");
     if (!display) throw root.error("a display", "none");
-    const Elsewhere elsewhere = readElsewhere(root);
+    Elsewhere elsewhere = readElsewhere(root);
     size_t count = 0;
     for (const XmlElement& buffer : display->children("buffer")) {
         document.buffers.push_back({attributeText(buffer, "id"), resolutionOf(buffer), {}});
@@ -181,7 +215,7 @@ MpcdiDocument parseMpcdi(const FileBytes& manifest) {
             if (++count > kMostRegions) throw display->error("at most 1024 regions", "more");
             MpcdiRegion region = regionOf(element);
             if (const auto sets = elsewhere.fileSets.find(region.id); sets != elsewhere.fileSets.end())
-                for (const XmlElement& fileSet : sets->second) readFiles(fileSet, region);
+                addFiles(region, sets->second.read());
             if (const auto extended = elsewhere.extended.find({document.buffers.back().id, region.id});
                 extended != elsewhere.extended.end())
                 region.fisheye =
@@ -195,30 +229,31 @@ MpcdiDocument parseMpcdi(const FileBytes& manifest) {
 
 std::vector<std::string> brokenRules(const MpcdiDocument& document) {
     std::vector<std::string> broken;
-    const std::string& profile = document.profile;
-    const bool hasPose = profile == "3d" || profile == "sl";
-    if (hasPose && document.buffers.size() != 1)
-        broken.push_back("display: profile " + profile + " has one buffer, and there are " +
+    if (hasPose(document) && document.buffers.size() != 1)
+        broken.push_back("display: profile " + document.profile + " has one buffer, and there are " +
                          std::to_string(document.buffers.size()));
     std::set<std::string> origins;
     for (const MpcdiBuffer& buffer : document.buffers)
-        for (const MpcdiRegion& region : buffer.regions) {
-            const auto breaks = [&](const std::string& what) {
-                broken.push_back(region.place + ": " + what);
-            };
-            const glm::dvec2 end = region.origin + region.size;
-            constexpr double kRounding = 1e-6;
-            if (!glm::all(glm::greaterThanEqual(region.origin, glm::dvec2(-kRounding))) ||
-                !glm::all(glm::lessThanEqual(end, glm::dvec2(1 + kRounding))) ||
-                !glm::all(glm::greaterThan(region.size, glm::dvec2(0))))
-                breaks("lies outside of its buffer");
-            if (!region.sizePx) breaks("no resolution");
-            if (hasPose && !region.frustum) breaks("profile " + profile + " needs a frustum");
-            if (profile == "sl" && !region.frame) breaks("profile sl needs a coordinateFrame");
-            if (document.version.starts_with("1") && !region.alpha) breaks("MPCDI 1.0 needs an alphaMap");
+        for (const MpcdiRegion& region : buffer.regions)
             if (region.warp && !region.warp->origin.empty()) origins.insert(region.warp->origin);
-        }
     if (origins.size() > 1) broken.emplace_back("files: regions with different values of originOf3DData");
+    return broken;
+}
+
+std::vector<std::string> brokenRules(const MpcdiDocument& document, const MpcdiRegion& region) {
+    std::vector<std::string> broken;
+    const glm::dvec2 end = region.origin + region.size;
+    constexpr double kRounding = 1e-6;
+    if (!glm::all(glm::greaterThanEqual(region.origin, glm::dvec2(-kRounding))) ||
+        !glm::all(glm::lessThanEqual(end, glm::dvec2(1 + kRounding))) ||
+        !glm::all(glm::greaterThan(region.size, glm::dvec2(0))))
+        broken.emplace_back("lies outside of its buffer");
+    if (!region.sizePx) broken.emplace_back("no resolution");
+    if (hasPose(document) && !region.frustum)
+        broken.push_back("profile " + document.profile + " needs a frustum");
+    if (document.profile == "sl" && !region.frame) broken.emplace_back("profile sl needs a coordinateFrame");
+    if (document.version.starts_with("1") && !region.alpha)
+        broken.emplace_back("MPCDI 1.0 needs an alphaMap");
     return broken;
 }
 

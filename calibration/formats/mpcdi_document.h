@@ -11,6 +11,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,17 +45,20 @@ struct MpcdiFisheye {
     double anamorphicDeg = 0;
 };
 
-struct MpcdiRegion {
+struct MpcdiFiles {
+    std::optional<MpcdiWarp> warp, distortion;
+    std::optional<MpcdiPicture> alpha, beta;
+    std::set<std::string> unread;  // elements that are there and mean something to others
+};
+
+struct MpcdiRegion : MpcdiFiles {
     std::string id;
     std::string place;              // in the manifest, for messages
     glm::dvec2 origin{0}, size{1};  // in the buffer, fractions from the top left corner
     std::optional<glm::ivec2> sizePx;
     std::optional<MpcdiFrustum> frustum;
     std::optional<MpcdiFrame> frame;
-    std::optional<MpcdiWarp> warp, distortion;
-    std::optional<MpcdiPicture> alpha, beta;
     std::optional<MpcdiFisheye> fisheye;
-    std::vector<std::string> unread;  // elements that are there and mean something to others
 };
 
 struct MpcdiBuffer {
@@ -74,7 +78,9 @@ struct MpcdiDocument {
 // numbers that are none.
 MpcdiDocument parseMpcdi(const FileBytes& manifest);
 
-// What breaks the standard's rules, "display/buffer[0]/region[1]: ...". Files in use break many of them.
+// What breaks the standard's rules as a whole, and what one region of the document breaks. Files in use break
+// many of them.
 std::vector<std::string> brokenRules(const MpcdiDocument& document);
+std::vector<std::string> brokenRules(const MpcdiDocument& document, const MpcdiRegion& region);
 
 }  // namespace curvewall

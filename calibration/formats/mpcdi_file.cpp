@@ -52,12 +52,13 @@ struct RegionMap {
     }
 };
 
-RegionMap readMap(const RegionContext& c, const char* element, const MpcdiWarp& warp, int channels) {
+RegionMap readMap(const RegionContext& c, const char* element, const MpcdiWarp& warp, int channels,
+                  Decisions& decisions) {
     RegionMap map{named(c, element, warp.path), {}, true};
     map.isPfm = isPfm(map.file.bytes);
-    map.numbers = readNumberMap(map.file);
-    c.budget.take(map.numbers.sizePx, c.region.place);
+    map.numbers = readNumberMap(map.file, [&](glm::ivec2 sizePx) { c.budget.take(sizePx, c.region.place); });
     map.file.bytes = {};
+    decideScale(map.numbers, decisions);
     if (map.numbers.channels < channels)
         throw InputError(map.file.path, "", fmt::format("a map of {} channels", channels),
                          std::to_string(map.numbers.channels));
@@ -85,7 +86,7 @@ ProjectionPtr warped(const RegionContext& c, const RegionMap& map, const MpcdiWa
                                    warp.interpolation));
     MapMeaning meaning = decideMeaning(described, direction, isOffset, decisions);
     meaning.sourceRect = rect;
-    display.projectionType = direction == MapDirection::forward ? "warp_mesh" : "camera_texture";
+    display.projectionType = meaning.cells.empty() ? "camera_texture" : "warp_mesh";
     return projectionOfMap(map.numbers, meaning, display.sizePx, source, map.file.path);
 }
 
@@ -104,8 +105,8 @@ ProjectionPtr readFlat(const RegionContext& c, Display& display, Decisions& deci
     const PictureRect rect{region.origin, region.size};
     display.projectionType = "camera_texture";
     if (region.warp)
-        return warped(c, readMap(c, "geometryWarpFile", *region.warp, 2), *region.warp, display, rect, source,
-                      decisions);
+        return warped(c, readMap(c, "geometryWarpFile", *region.warp, 2, decisions), *region.warp, display,
+                      rect, source, decisions);
     // Without a map the region shows its part of the buffer as it is.
     const NumberMap corners{{2, 2}, 2, false, {0, 0, 1, 0, 0, 1, 1, 1}};
     return projectionOfMap(corners, {.alignment = Alignment::corners, .sourceRect = rect}, display.sizePx,
@@ -118,12 +119,12 @@ ProjectionPtr readView(const RegionContext& c, Display& display, const MpcdiWarp
                                 pictureOfRegion(c.region, display.sizePx, c.document.path, decisions)};
     display.projectionType = c.region.fisheye ? "radial" : "planar";
     if (!warp) return picture.projection;
-    return warped(c, readMap(c, element, *warp, 2), *warp, display, {}, picture, decisions);
+    return warped(c, readMap(c, element, *warp, 2, decisions), *warp, display, {}, picture, decisions);
 }
 
 ProjectionPtr readSurface(const RegionContext& c, Display& display, glm::dvec3 eyeM, Decisions& decisions) {
     const MpcdiWarp& warp = *c.region.warp;
-    const RegionMap map = readMap(c, "geometryWarpFile", warp, 3);
+    const RegionMap map = readMap(c, "geometryWarpFile", warp, 3, decisions);
     const MapFile described = map.described(display.sizePx);
     static const std::map<std::string, double> kUnits{{"mm", 0.001},  {"cm", 0.01},   {"dm", 0.1},   {"m", 1},
                                                       {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144}};
@@ -186,7 +187,7 @@ BlendMapsPtr readBlend(const RegionContext& c, glm::ivec2 sizePx, Decisions& dec
                                   : decisions.number("alpha_gamma", kGamma, kUsualGamma,
                                                      "alphaMap has no gammaEmbedded; 2.2 is usual");
         blend.alpha = readBlendPicture(named(c, "alphaMap", alpha->path), sizePx, alphaGamma,
-                                       c.region.place + "/alphaMap", decisions);
+                                       c.region.place + "/alphaMap", decisions, &c.budget);
     }
     if (const auto& beta = c.region.beta) {
         const double gamma = beta->gamma
@@ -195,23 +196,19 @@ BlendMapsPtr readBlend(const RegionContext& c, glm::ivec2 sizePx, Decisions& dec
                                                     "betaMap has no gammaEmbedded; that of the alphaMap, "
                                                     "or else 2.2, is usual");
         blend.beta = readBlendPicture(named(c, "betaMap", beta->path), sizePx, gamma,
-                                      c.region.place + "/betaMap", decisions);
+                                      c.region.place + "/betaMap", decisions, &c.budget);
     }
     if (blend.empty()) return nullptr;
     return std::make_shared<const BlendMaps>(std::move(blend));
 }
 
-Display readRegion(const RegionContext& c, std::string name, glm::dvec3 eyeM, Decisions decisions) {
-    Display display;
-    display.name = std::move(name);
-    display.sizePx =
-        decideSize(c.request, c.region.sizePx ? c.region.sizePx : c.buffer.sizePx, std::nullopt, decisions);
+// Of a display that has a name and a size.
+void readRegion(const RegionContext& c, Display& display, glm::dvec3 eyeM, Decisions& decisions) {
     display.projection = readProjection(c, display, eyeM, decisions);
     display.blend = readBlend(c, display.sizePx, decisions);
     for (const std::string& unread : c.region.unread)
         decisions.warn(c.region.place + ": " + unread + " is not used");
     listDecisions(decisions, display);
-    return display;
 }
 
 std::vector<std::string> displayNames(const MpcdiDocument& document) {
@@ -237,7 +234,8 @@ Wall readDocument(const MpcdiDocument& document, const FindFile& find, const Cal
     struct Wanted {
         const MpcdiBuffer& buffer;
         const MpcdiRegion& region;
-        const std::string& name;
+        Display display;
+        Decisions decisions;
     };
     std::vector<Wanted> wanted;
     TexelBudget budget(document.path, archiveBytes);
@@ -246,14 +244,20 @@ Wall readDocument(const MpcdiDocument& document, const FindFile& find, const Cal
         for (const MpcdiRegion& region : buffer.regions) {
             const std::string& displayName = names[place++];
             if (!request.display.empty() && displayName != request.display) continue;
-            wanted.push_back({buffer, region, displayName});
-            const glm::ivec2 sizePx = request.sizePx.value_or(region.sizePx.value_or(glm::ivec2(0)));
-            for (const auto& picture : {region.alpha, region.beta})
-                if (picture) budget.take(sizePx, region.place);
+            Wanted w{buffer, region, {}, decisions};
+            w.display.name = displayName;
+            for (const std::string& broken : brokenRules(document, region))
+                w.decisions.warn(region.place + ": " + broken);
+            w.display.sizePx =
+                decideSize(request, region.sizePx ? region.sizePx : buffer.sizePx, std::nullopt, w.decisions);
+            for (const bool isThere : {region.alpha.has_value(), region.beta.has_value()})
+                if (isThere) budget.take(w.display.sizePx, region.place);
+            wanted.push_back(std::move(w));
         }
-    for (const Wanted& w : wanted)
-        wall.displays.push_back(
-            readRegion({document, w.buffer, w.region, find, request, budget}, w.name, wall.eyeM, decisions));
+    for (Wanted& w : wanted) {
+        readRegion({document, w.buffer, w.region, find, request, budget}, w.display, wall.eyeM, w.decisions);
+        wall.displays.push_back(std::move(w.display));
+    }
     return wall;
 }
 

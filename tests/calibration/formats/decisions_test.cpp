@@ -87,6 +87,17 @@ TEST(Decisions, ACopyGoesOnForOneDisplayAndTellsTheOthersWhatItAsked) {
     EXPECT_EQ(complaint([&] { file.refuseUnusedKeys(); }), "");
 }
 
+TEST(Decisions, OfManyWarningsTheLastOneCountsTheRest) {
+    Decisions decisions;
+    for (int i = 0; i < 100; ++i) decisions.warn("line " + std::to_string(i));
+    EXPECT_EQ(decisions.warnings().size(), 100U);
+    EXPECT_EQ(decisions.warnings().back(), "line 99");
+    for (int i = 100; i < 5000; ++i) decisions.warn("line " + std::to_string(i));
+    ASSERT_EQ(decisions.warnings().size(), 101U);
+    EXPECT_EQ(decisions.warnings()[99], "line 99");
+    EXPECT_EQ(decisions.warnings().back(), "and 4900 more");
+}
+
 TEST(Decisions, OfOneKeyTheLaterDecisionIsListed) {
     Decisions decisions;
     decisions.number("fov", {0, 360}, 180, "first");

@@ -3,6 +3,8 @@
 #include "calibration/errors.h"
 #include "calibration/files/pfm_file.h"
 #include "calibration/files/zip_archive.h"
+#include "calibration/formats/blend_files.h"
+#include "calibration/formats/texel_budget.h"
 #include "tests/support/map_writer.h"
 #include "tests/support/sample_paths.h"
 
@@ -24,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -261,6 +264,72 @@ TEST(MpcdiFile, BlendsForMoreThanAnyWallAreRefusedBeforeTheyAreMade) {
         FAIL() << "six gigabytes of blends were made";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("nodes and pixels together"));
+    }
+}
+
+TEST(MpcdiFile, BlendsAreChargedByTheResolutionOfTheBufferToo) {
+    std::string regions, sets;
+    for (const char* id : {"a", "b"}) {
+        regions += fmt::format("<region id='{}'/>", id);
+        sets += fmt::format("<fileset region='{}'><betaMap><path>a.pfm</path></betaMap></fileset>", id);
+    }
+    EXPECT_THROW(
+        read({"w.mpcdi.xml", "<MPCDI profile='2d'><display><buffer xResolution='16384' yResolution='16384'>" +
+                                 regions + "</buffer></display><files>" + sets + "</files></MPCDI>"},
+             findIn({{"a.pfm", test::pfmBytes(greys({1, 1}, {1}))}})),
+        InputError);
+}
+
+TEST(MpcdiFile, PicturesThatAreNotOfTheDisplaysSizeAreChargedBeforeTheyAreRead) {
+    TexelBudget budget("w.mpcdi", 0);
+    budget.take({16384, 16383}, "all but one row");
+    Decisions decisions;
+    const auto picture = [](glm::ivec2 sizePx) {
+        const auto texels = static_cast<size_t>(sizePx.x) * static_cast<size_t>(sizePx.y);
+        return FileBytes{"a.pfm", test::pfmBytes(greys(sizePx, std::vector<float>(texels, 0.5f)))};
+    };
+    const auto readOn = [&](const FileBytes& file, glm::ivec2 sizePx) {
+        return readBlendPicture(file, sizePx, 1, "region", decisions, &budget).size();
+    };
+    EXPECT_EQ(readOn(picture({256, 256}), {256, 256}), 65536u) << "the caller's to charge";
+    EXPECT_EQ(readOn(picture({64, 256}), {2, 2}), 4u) << "what is left";
+    EXPECT_THROW(readOn(picture({4, 4}), {2, 2}), InputError);
+}
+
+TEST(MpcdiFile, RegionsGetTheWarningsOfTheirOwnAndOfTheWholeDocument) {
+    const Wall wall =
+        read({"w.mpcdi.xml",
+              "<MPCDI profile='3d'><display><buffer><region id='a' xResolution='4' yResolution='2'>"
+              "<frustum><rightAngle>30</rightAngle><leftAngle>-30</leftAngle><upAngle>20</upAngle>"
+              "<downAngle>-20</downAngle></frustum></region></buffer><buffer><region id='b' x='0.5' "
+              "xResolution='4' yResolution='2'><frustum><rightAngle>30</rightAngle><leftAngle>-30"
+              "</leftAngle><upAngle>20</upAngle><downAngle>-20</downAngle></frustum></region></buffer>"
+              "</display></MPCDI>"});
+    ASSERT_EQ(wall.displays.size(), 2u);
+    EXPECT_THAT(wall.displays[0].warnings, ElementsAre(HasSubstr("has one buffer")));
+    EXPECT_THAT(wall.displays[1].warnings,
+                ElementsAre(HasSubstr("has one buffer"), HasSubstr("buffer[1]/region: lies outside")));
+}
+
+TEST(MpcdiFile, FileSetsOfOneIdAreReadOnceForAllItsRegions) {
+    std::string regions, sets;
+    for (int i = 0; i < 1000; ++i)
+        regions +=
+            "<region id='a' xResolution='4' yResolution='2'><frustum><rightAngle>30</rightAngle>"
+            "<leftAngle>-30</leftAngle><upAngle>20</upAngle><downAngle>-20</downAngle></frustum>"
+            "</region>";
+    for (int i = 0; i < 100000; ++i) sets += "<fileset region='a'/>";
+    sets +=
+        "<fileset region='a'><decodeLUT><path>x</path></decodeLUT></fileset>"
+        "<fileset region='a'><alphaMap><path>a.pfm</path><gammaEmbedded>1</gammaEmbedded></alphaMap>"
+        "</fileset><fileset region='a'><alphaMap><path>none.pfm</path></alphaMap></fileset>";
+    const Wall wall = read({"w.mpcdi.xml", "<MPCDI profile='3d'><display><buffer>" + regions +
+                                               "</buffer></display><files>" + sets + "</files></MPCDI>"},
+                           findIn({{"a.pfm", test::pfmBytes(greys({4, 2}, std::vector<float>(8, 0.5f)))}}));
+    ASSERT_EQ(wall.displays.size(), 1000u);
+    for (const Display& display : wall.displays) {
+        ASSERT_TRUE(display.blend) << "the first alphaMap counts";
+        EXPECT_THAT(display.warnings, ElementsAre(HasSubstr("decodeLUT is not used")));
     }
 }
 

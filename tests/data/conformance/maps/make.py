@@ -33,6 +33,26 @@ case("inverse", "An inverse map tells which position of the picture a pixel show
      "with the bottom row.", pfm(CORNERS), rays=AT_CORNERS,
      assumptions={"map_kind": "inverse", "map_values": "absolute", "row_order": "bottom_first", "source_v": "down",
                   "node_alignment": "corners"})
+# At a quarter of the width and three quarters of the height, from the top. Where a cell is cut in two, (s, t) is a
+# sum of its corners at (0, 0), (1, 1) and the one between; cells are affine but for the last corner, moved by 0.2.
+BENT = [[(0.1, 0.6, 0), (0.9, 0.8, 0)], [(0.1, 0.2, 0), (0.9, 0.2, 0)]]
+case("inverse_bilinear", "Between the nodes of a coarse inverse map positions are bilinear.", pfm(BENT),
+     assumptions={"interpolation": "bilinear"},
+     rays=[((16, 24), picture(0.3, 0.2 + 0.4 * 0.75 + 0.2 * 0.25 * 0.75)),
+           ((48, 8), picture(0.7, 0.2 + 0.4 * 0.25 + 0.2 * 0.75 * 0.25))])
+case("inverse_triangles", "The user may have the cells of a coarse inverse map cut from the first node to the last, "
+     "as meshes are drawn.", pfm(BENT), assume={"interpolation": "triangles"},
+     rays=[((16, 24), picture(0.3, 0.2 + 0.4 * 0.75 + 0.2 * 0.25)),
+           ((48, 8), picture(0.7, 0.2 + 0.4 * 0.25 + 0.2 * 0.25))])
+case("inverse_triangles_across", "Or from the second node to the third.", pfm(BENT),
+     assume={"interpolation": "triangles_across"},
+     rays=[((16, 8), picture(0.3, 0.2 + 0.4 * 0.25)),
+           ((48, 24), picture(0.7, 0.2 + 0.4 * 0.75 + 0.2 * 0.5))])
+case("scale", "A PFM's scale is ignored but for its sign, and that is an assumption.", pfm(CORNERS, scale="-2"),
+     rays=AT_CORNERS, assumptions={"scale": "ignored"})
+case("scale_is_a_factor", "A PFM's scale multiplies the numbers where the user says so.",
+     pfm([[(u / 2, v / 2, w) for u, v, w in row] for row in CORNERS], scale="-2"), rays=AT_CORNERS,
+     assume={"scale": "factor"})
 case("big_endian", "A positive scale means big-endian numbers.", pfm(CORNERS, big_endian=True), rays=AT_CORNERS)
 case("wrong_byte_order", "A scale of the wrong sign is seen by numbers that make no sense.",
      pfm(CORNERS, scale="1.0"), error="byte order")
