@@ -13,6 +13,9 @@
 
 namespace curvewall {
 
+// Of a display or a map in each direction.
+inline constexpr int64_t kMostPx = 16384;
+
 // A damaged header must not make us ask for all memory there is. 16,384 x 16,384 passes.
 inline constexpr int64_t kMaxMapTexels = int64_t{1} << 28;
 

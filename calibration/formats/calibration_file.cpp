@@ -1,6 +1,7 @@
 #include "calibration/formats/calibration_file.h"
 
 #include "calibration/errors.h"
+#include "calibration/files/map_file.h"
 #include "calibration/formats/camera_yaml.h"
 #include "calibration/formats/display_names.h"
 #include "calibration/formats/frustum_file.h"
@@ -110,9 +111,10 @@ glm::ivec2 decideSize(const CalibrationRequest& request, std::optional<glm::ivec
     const double shape = aspect.value_or(kUsualAspect);
     const std::string why =
         fmt::format("the file names no resolution; {}", aspect ? "its shape does" : "16:9 is usual");
-    const int width = static_cast<int>(decisions.number("width_px", {1, 16384}, kUsualWidthPx, why));
-    const double height = std::clamp(std::round(width / shape), 1.0, 16384.0);
-    return {width, static_cast<int>(decisions.number("height_px", {1, 16384}, height, why))};
+    const int width =
+        static_cast<int>(decisions.number("width_px", {1, double{kMostPx}}, kUsualWidthPx, why));
+    const double height = std::clamp(std::round(width / shape), 1.0, double{kMostPx});
+    return {width, static_cast<int>(decisions.number("height_px", {1, double{kMostPx}}, height, why))};
 }
 
 void listDecisions(const Decisions& decisions, Display& display) {

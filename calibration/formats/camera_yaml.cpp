@@ -1,6 +1,7 @@
 #include "calibration/formats/camera_yaml.h"
 
 #include "calibration/errors.h"
+#include "calibration/files/map_file.h"
 #include "calibration/files/yaml_values.h"
 #include "calibration/formats/display_names.h"
 #include "calibration/projections/camera_lens.h"
@@ -28,7 +29,6 @@
 namespace curvewall {
 namespace {
 
-constexpr int kMostPx = 16384;
 constexpr double kMostNumber = 1e6;
 constexpr double kMostTiltRad = 1.5;  // short of a sensor seen edge on
 
@@ -138,7 +138,7 @@ std::vector<double> numbersOf(const Field& field, std::initializer_list<size_t> 
 
 int pixelsOf(const Field& field, const std::string& text) {
     const auto number = numberOf(text);
-    if (!number || *number < 1 || *number > kMostPx || *number != std::floor(*number))
+    if (!number || *number < 1 || *number > double{kMostPx} || *number != std::floor(*number))
         throw wrong(field, "a whole number of pixels from 1 to 16384", describe(nlohmann::json(text)));
     return static_cast<int>(*number);
 }

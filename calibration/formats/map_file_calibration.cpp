@@ -97,12 +97,12 @@ MapKind decideKind(const NumberMap& map, const MapSurvey& s, bool hadHalves, Dec
 
 // Large maps have a node for every pixel.
 glm::ivec2 decideMapSize(const CalibrationRequest& request, glm::ivec2 nodes, Decisions& decisions) {
-    constexpr int kFewNodes = 400, kMostPx = 16384;
+    constexpr int kFewNodes = 400;
     if (request.sizePx || std::min(nodes.x, nodes.y) < kFewNodes || std::max(nodes.x, nodes.y) > kMostPx)
         return decideSize(request, std::nullopt, std::nullopt, decisions);
     const std::string why = "the file names no resolution; so many nodes are one for each pixel";
     const auto side = [&](const char* key, int count) {
-        return static_cast<int>(decisions.number(key, {1, kMostPx}, count, why));
+        return static_cast<int>(decisions.number(key, {1, double{kMostPx}}, count, why));
     };
     const int width = side("width_px", nodes.x);
     return {width, side("height_px", nodes.y)};

@@ -1,6 +1,7 @@
 #include "calibration/formats/mpcdi_document.h"
 
 #include "calibration/errors.h"
+#include "calibration/files/map_file.h"
 #include "calibration/files/xml_document.h"
 
 #include <glm/vector_relational.hpp>
@@ -15,7 +16,6 @@ namespace curvewall {
 namespace {
 
 constexpr size_t kMostRegions = 1024;
-constexpr double kMostPx = 16384;
 
 std::string attributeText(const XmlElement& element, std::string_view name) {
     return element.attribute(name).value_or("");
@@ -29,7 +29,7 @@ std::string childText(const XmlElement& element, std::string_view name) {
 std::optional<glm::ivec2> resolutionOf(const XmlElement& element) {
     const auto side = [&](std::string_view name) {
         const auto number = element.attributeNumber(name);
-        if (number && !(*number >= 1 && *number <= kMostPx && *number == std::floor(*number)))
+        if (number && !(*number >= 1 && *number <= double{kMostPx} && *number == std::floor(*number)))
             throw InputError(element.path(), element.place() + "/@" + std::string(name),
                              "a whole number from 1 to 16384", attributeText(element, name));
         return number;
@@ -146,10 +146,10 @@ void addFiles(MpcdiFiles& files, const MpcdiFiles& more) {
     files.unread.insert(more.unread.begin(), more.unread.end());
 }
 
-MpcdiRegion regionOf(const XmlElement& element) {
+MpcdiRegion regionOf(const XmlElement& element, const std::string& place) {
     MpcdiRegion region;
     region.id = attributeText(element, "id");
-    region.place = element.place();
+    region.place = place;
     const auto fraction = [&](std::string_view name, double otherwise) {
         return element.attributeNumber(name).value_or(otherwise);
     };
@@ -197,6 +197,12 @@ Elsewhere readElsewhere(const XmlElement& root) {
 
 bool hasPose(const MpcdiDocument& document) { return document.profile == "3d" || document.profile == "sl"; }
 
+// What XmlElement::place is, without counting all siblings again for each element.
+std::string placeOf(const std::string& parent, const std::vector<XmlElement>& elements, size_t index) {
+    return parent + "/" + elements[index].name() +
+           (elements.size() > 1 ? "[" + std::to_string(index) + "]" : "");
+}
+
 }  // namespace
 
 MpcdiDocument parseMpcdi(const FileBytes& manifest) {
@@ -209,11 +215,16 @@ MpcdiDocument parseMpcdi(const FileBytes& manifest) {
     if (!display) throw root.error("a display", "none");
     Elsewhere elsewhere = readElsewhere(root);
     size_t count = 0;
-    for (const XmlElement& buffer : display->children("buffer")) {
+    const std::vector<XmlElement> buffers = display->children("buffer");
+    const std::string displayPlace = display->place();
+    for (size_t b = 0; b < buffers.size(); ++b) {
+        const XmlElement& buffer = buffers[b];
+        const std::vector<XmlElement> regions = buffer.children("region");
+        const std::string bufferPlace = placeOf(displayPlace, buffers, b);
         document.buffers.push_back({attributeText(buffer, "id"), resolutionOf(buffer), {}});
-        for (const XmlElement& element : buffer.children("region")) {
+        for (size_t r = 0; r < regions.size(); ++r) {
             if (++count > kMostRegions) throw display->error("at most 1024 regions", "more");
-            MpcdiRegion region = regionOf(element);
+            MpcdiRegion region = regionOf(regions[r], placeOf(bufferPlace, regions, r));
             if (const auto sets = elsewhere.fileSets.find(region.id); sets != elsewhere.fileSets.end())
                 addFiles(region, sets->second.read());
             if (const auto extended = elsewhere.extended.find({document.buffers.back().id, region.id});

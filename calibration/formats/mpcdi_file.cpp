@@ -95,9 +95,8 @@ ProjectionPtr readFlat(const RegionContext& c, Display& display, Decisions& deci
     if (!glm::all(glm::greaterThan(region.size, glm::dvec2(0))))
         throw c.error("/@xsize", "a region that covers an area of its buffer",
                       fmt::format("{} x {}", region.size.x, region.size.y));
-    constexpr double kMostPx = 16384;
     const glm::ivec2 bufferPx = c.buffer.sizePx.value_or(
-        glm::clamp(glm::round(glm::dvec2(display.sizePx) / region.size), 1.0, kMostPx));
+        glm::clamp(glm::round(glm::dvec2(display.sizePx) / region.size), 1.0, double{kMostPx}));
     const SourcePicture source =
         c.request.source
             ? *c.request.source

@@ -2,6 +2,7 @@
 // Fields that several types of projection have.
 
 #include "calibration/files/json_fields.h"
+#include "calibration/files/map_file.h"
 #include "calibration/projections/frustum.h"
 #include "calibration/projections/pose.h"
 #include "calibration/readers/projection_reader.h"
@@ -20,7 +21,6 @@ namespace curvewall {
 inline constexpr double kMostM = 1e7;  // no wall is larger than the earth
 inline constexpr Range kAnywhereM{-kMostM, kMostM};
 inline constexpr Range kLengthM{0, kMostM, true};
-inline constexpr int64_t kMostPx = 16384;         // of a display in each direction
 inline constexpr Range kTurnsDeg{0, 1440, true};  // a panorama may go around more than once
 
 std::optional<glm::dvec3> vector3(JsonFields& fields, const char* key, Range range);
