@@ -85,7 +85,8 @@ void readCameraTextureFile(benchmark::State& state) {
     OIIO::attribute("exr_threads", -1);
     for (auto _ : state) {
         JsonFields fields(object, "projection");
-        benchmark::DoNotOptimize(readCameraTexture(fields, {folder.path(), {}, kNodesPx}));
+        std::vector<std::string> files;
+        benchmark::DoNotOptimize(readCameraTexture(fields, {{folder.path(), files}, {}, kNodesPx}));
     }
     state.SetLabel(std::string(format.file) + (format.channels == 3 ? ", 3 channels" : ", 2 channels"));
     state.counters["ms_per_Mpx"] =

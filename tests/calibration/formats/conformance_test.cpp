@@ -62,7 +62,8 @@ CalibrationRequest requestOf(const Case& c) {
         request.eyeM = {c.content["eye"][0], c.content["eye"][1], c.content["eye"][2]};
     if (c.content.contains("source")) {
         JsonFields source(c.content["source"], "source");
-        request.source = readSource(source, {c.path.parent_path(), {}, glm::ivec2(0)});
+        std::vector<std::string> files;
+        request.source = readSource(source, {{c.path.parent_path(), files}, {}, glm::ivec2(0)});
     }
     request.display = c.content.value("display", "");
     return request;

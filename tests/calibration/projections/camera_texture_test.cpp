@@ -97,7 +97,8 @@ void PrintTo(const Variant& v, std::ostream* out) {
 
 ProjectionPtr readKeys(const json& keys, const test::TemporaryFolder& folder) {
     JsonFields fields(keys, "projection");
-    ProjectionPtr projection = readCameraTexture(fields, {folder.path(), {}, kSizePx});
+    std::vector<std::string> files;
+    ProjectionPtr projection = readCameraTexture(fields, {{folder.path(), files}, {}, kSizePx});
     fields.refuseUnknownKeys();
     return projection;
 }

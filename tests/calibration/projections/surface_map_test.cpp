@@ -284,7 +284,9 @@ class SurfaceMapFile : public ::testing::Test {
 protected:
     ProjectionPtr read(const json& keys) const {
         JsonFields fields(keys, "projection");
-        ProjectionPtr projection = readSurfaceMap(fields, {folder_.path(), {0.1, 0.2, 0.3}, kSizePx});
+        std::vector<std::string> files;
+        ProjectionPtr projection =
+            readSurfaceMap(fields, {{folder_.path(), files}, {0.1, 0.2, 0.3}, kSizePx});
         fields.refuseUnknownKeys();
         return projection;
     }

@@ -66,7 +66,8 @@ protected:
                       {"upper_left", {-1, 1, -1}}}}}}};
         keys.merge_patch(changes);
         JsonFields fields(keys, "projection");
-        ReadProjection read = readWarpMesh(fields, {folder_.path(), {}, kSizePx});
+        std::vector<std::string> files;
+        ReadProjection read = readWarpMesh(fields, {{folder_.path(), files}, {}, kSizePx});
         fields.refuseUnknownKeys();
         return read;
     }
