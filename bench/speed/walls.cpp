@@ -61,8 +61,7 @@ PieceWall cameraTexture(double tolerancePx) {
     auto map = std::make_shared<const GridMap>(projectorOffsets(), offsets, kSizePx, Alignment::corners);
     const double across = std::atan(1.0), up = std::atan(0.75);
     auto base = std::make_shared<FrustumProjection>(Frustum{-across, across, -up, up, {}}, kSizePx);
-    auto projection =
-        std::make_shared<CameraTexture>(std::move(map), std::move(base), MapDirection::forward);
+    auto projection = std::make_shared<CameraTexture>(std::move(map), std::move(base), MapDirection::forward);
     Wall wall{"camera texture", {}, {}, {{"projector", kSizePx, "camera_texture", std::move(projection)}}};
     return fittedWall("camera texture", std::move(wall), tolerancePx);
 }

@@ -2,10 +2,10 @@
 // A screen of any shape, measured: the point that every pixel lights, or points on a coarser grid and
 // bilinear patches between them, seen from any eye.
 
+#include "calibration/files/map_file.h"
 #include "calibration/projections/grid_layout.h"
 #include "calibration/projections/grid_pyramid.h"
 #include "calibration/projections/projection.h"
-#include "calibration/files/map_file.h"
 #include "calibration/readers/projection_fields.h"
 
 #include <glm/mat3x3.hpp>
