@@ -1,15 +1,18 @@
 #pragma once
-// The EXR files that maps usually come in, read several times faster than OpenImageIO reads them.
+// EXR files of numbers, several times faster than OpenImageIO reads them. OpenEXR's C interface holds every
+// size in a header against the size of the file before it takes memory for it; its C++ interface, on which
+// OpenImageIO builds, believes the header.
 
 #include "calibration/files/map_file.h"
 
-#include <optional>
 #include <string>
 
 namespace curvewall {
 
-// Plain scan lines of half or float channels named R, G, B, A or Y, uncompressed or in ZIP or ZIPS. Nothing
-// for any other file and for a damaged one: another reader may know more about it.
-std::optional<NumberMap> readPlainExr(const std::string& path);
+// The first part of a file, of scan lines or the finest level of tiles, in any compression but
+// B44 and DWA: one to four channels of half or float. R, G and B come first and A comes last, the others keep
+// the order of their names. `allow` as for readNumberMap. Throws InputError.
+NumberMap readExr(const std::string& path);
+NumberMap readExr(const FileBytes& file, const AllowSize& allow = {});
 
 }  // namespace curvewall

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -19,7 +20,6 @@
 namespace curvewall {
 namespace {
 
-constexpr int kMaxChannels = 4;
 // Three times as fast as zlib's default of 6, for files a few per cent larger.
 constexpr int kPngCompressionLevel = 4;
 
@@ -30,8 +30,7 @@ struct Picture {
     const char* format;  // as OpenImageIO calls it
 };
 
-constexpr std::array<Picture, 6> kPictures{{
-    {kExrStart, "openexr"},
+constexpr std::array<Picture, 5> kPictures{{
     {"\x89PNG\r\n", "png"},
     {{"II*\0", 4}, "tiff"},
     {{"MM\0*", 4}, "tiff"},
@@ -45,6 +44,12 @@ const Picture* pictureOf(std::string_view bytes) {
     return found == kPictures.end() ? nullptr : &*found;
 }
 
+bool isExrFile(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::array<char, kExrStart.size()> start{};
+    return in.read(start.data(), start.size()) && isExr({start.data(), start.size()});
+}
+
 // Or colour would come multiplied by its alpha.
 OIIO::ImageSpec asStored() {
     OIIO::ImageSpec options;
@@ -54,27 +59,33 @@ OIIO::ImageSpec asStored() {
 
 NumberMap readPixels(OIIO::ImageInput& in, const std::string& path, uint64_t fileBytes,
                      const AllowSize& allow = {}) {
-    const auto fail = [&path](const std::string& found) {
-        return InputError(path, "", "a readable image", found);
-    };
     const OIIO::ImageSpec& spec = in.spec();
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 ||
-        int64_t{spec.width} * spec.height > kMaxMapTexels)
-        throw fail("one of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
-    if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
-        throw fail("one of " + std::to_string(spec.nchannels) + " channels");
-
-    NumberMap map{{spec.width, spec.height}, spec.nchannels, !spec.format.is_floating_point(), {}};
+    if (spec.depth > 1)
+        throw InputError(path, "", "a flat image", "one of " + std::to_string(spec.depth) + " layers");
+    NumberMap map{mapSizePx(path, spec.width, spec.height, spec.nchannels),
+                  spec.nchannels,
+                  !spec.format.is_floating_point(),
+                  {}};
     requirePlausibleSize(path, fileBytes, map);
     if (allow) allow(map.sizePx);
     map.values.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
                       static_cast<size_t>(spec.nchannels));
     if (!in.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, map.values.data()))
-        throw fail(in.geterror());
+        throw InputError(path, "", "a readable image", in.geterror());
     return map;
 }
 
 }  // namespace
+
+glm::ivec2 mapSizePx(const std::string& path, int64_t width, int64_t height, int channels) {
+    if (width < 1 || height < 1 || width > kMaxMapSidePx || height > kMaxMapSidePx ||
+        width * height > kMaxMapTexels)
+        throw InputError(path, "", "a readable image",
+                         "one of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+    if (channels < 1 || channels > kMaxMapChannels)
+        throw InputError(path, "", "a readable image", "one of " + std::to_string(channels) + " channels");
+    return {static_cast<int>(width), static_cast<int>(height)};
+}
 
 void requirePlausibleSize(const std::string& path, uint64_t fileBytes, const NumberMap& map) {
     // Deflate packs a thousand bytes into one at best, and a byte of a file may become a float of four.
@@ -90,7 +101,7 @@ void requirePlausibleSize(const std::string& path, uint64_t fileBytes, const Num
 
 NumberMap readNumberMap(const std::string& path) {
     if (isPfmFile(path)) return readPfm(path);
-    if (auto map = readPlainExr(path)) return std::move(*map);
+    if (isExrFile(path)) return readExr(path);
     const OIIO::ImageSpec options = asStored();
     const auto in = OIIO::ImageInput::open(path, &options);
     if (!in) throw InputError(path, "", "a readable image", OIIO::geterror());
@@ -101,6 +112,7 @@ NumberMap readNumberMap(const std::string& path) {
 
 NumberMap readNumberMap(const FileBytes& file, const AllowSize& allow) {
     if (isPfm(file.bytes)) return parsePfm(file, allow);
+    if (isExr(file.bytes)) return readExr(file, allow);
     const Picture* picture = pictureOf(file.bytes);
     if (!picture)
         throw InputError(file.path, "", "a PFM, EXR, PNG, TIFF, JPEG or BMP",
@@ -118,7 +130,7 @@ NumberMap readNumberMap(const FileBytes& file, const AllowSize& allow) {
     return readPixels(*in, file.path, file.bytes.size(), allow);
 }
 
-bool isPicture(std::string_view bytes) { return pictureOf(bytes) != nullptr; }
+bool isPicture(std::string_view bytes) { return isExr(bytes) || pictureOf(bytes); }
 
 bool isExr(std::string_view bytes) { return bytes.starts_with(kExrStart); }
 

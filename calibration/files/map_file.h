@@ -18,6 +18,8 @@ inline constexpr int64_t kMostPx = 16384;
 
 // A damaged header must not make us ask for all memory there is. 16,384 x 16,384 passes.
 inline constexpr int64_t kMaxMapTexels = int64_t{1} << 28;
+inline constexpr int64_t kMaxMapSidePx = int64_t{1} << 24;
+inline constexpr int kMaxMapChannels = 4;
 
 struct NumberMap {
     glm::ivec2 sizePx{0};
@@ -31,6 +33,9 @@ struct NumberMap {
                        static_cast<size_t>(channels)];
     }
 };
+
+// The size that a header says. Throws InputError where it is none, or more than a map may have.
+glm::ivec2 mapSizePx(const std::string& path, int64_t width, int64_t height, int channels);
 
 // Throws InputError where the file is too small to hold numbers of that many pixels and channels, however
 // well they are packed: a damaged header must not take all memory there is.

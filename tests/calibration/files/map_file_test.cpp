@@ -24,15 +24,20 @@ NumberMap randomMap(glm::ivec2 size, int channels, uint64_t seed) {
     return map;
 }
 
+template <typename Read>
+std::string complaint(const Read& read) {
+    try {
+        read();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
 class MapFile : public ::testing::Test {
 protected:
     std::string complaintAbout(const std::string& name, const std::string& bytes) const {
-        try {
-            readNumberMap(folder_.write(name, bytes));
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "nothing";
+        return complaint([&] { readNumberMap(folder_.write(name, bytes)); });
     }
     test::TemporaryFolder folder_;
 };
@@ -96,6 +101,70 @@ TEST_F(MapFile, ExrComesBitByBit) {
         }
 }
 
+// What OpenImageIO makes of the same file.
+std::vector<float> openImageIoReads(const std::string& path, size_t numbers) {
+    std::vector<float> values(numbers);
+    const auto in = OIIO::ImageInput::open(path);
+    if (!in || !in->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, values.data())) return {};
+    return values;
+}
+
+TEST_F(MapFile, ExrOfEveryCompressionReadsAsInOpenImageIoOrIsForPictures) {
+    const NumberMap map = randomMap({71, 150}, 3, 6);
+    const std::string path = folder_.path("m.exr");
+    for (const auto type : {OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::HALF}) {
+        for (const char* compression : {"none", "rle", "zips", "zip", "piz", "pxr24"}) {
+            test::writeMap(path, map, type, compression);
+            EXPECT_EQ(readNumberMap(path).values, openImageIoReads(path, map.values.size())) << compression;
+        }
+        for (const char* compression : {"b44", "b44a", "dwaa", "dwab"}) {
+            test::writeMap(path, map, type, compression);
+            EXPECT_THAT(complaint([&] { readNumberMap(path); }), HasSubstr("keeps its numbers"));
+        }
+    }
+}
+
+TEST_F(MapFile, TiledExrComesBitByBit) {
+    for (const glm::ivec2 tilePx : {glm::ivec2(32), {16, 64}, {67, 41}, {128, 128}})
+        for (const char* compression : {"none", "zip", "piz"}) {
+            const std::string path = folder_.path("m.exr");
+            const NumberMap map = randomMap({67, 41}, 3, 7);
+            OIIO::ImageSpec spec(67, 41, 3, OIIO::TypeDesc::FLOAT);
+            spec.tile_width = tilePx.x;
+            spec.tile_height = tilePx.y;
+            spec.attribute("compression", compression);
+            const auto out = OIIO::ImageOutput::create(path);
+            ASSERT_TRUE(out && out->open(path, spec) &&
+                        out->write_image(OIIO::TypeDesc::FLOAT, map.values.data()) && out->close());
+            EXPECT_EQ(readNumberMap(path).values, map.values) << tilePx.x << " " << compression;
+            EXPECT_EQ(readNumberMap(readFile(path, "a map")).values, map.values);
+        }
+}
+
+TEST_F(MapFile, ExrChannelsComeInTheOrderOfPictures) {
+    struct Case {
+        std::vector<std::string> written, read;
+    };
+    const std::string path = folder_.path("m.exr");
+    for (const auto& [written, read] : std::vector<Case>{{{"A", "B", "G", "R"}, {"R", "G", "B", "A"}},
+                                                         {{"B", "G", "R", "Z"}, {"R", "G", "B", "Z"}},
+                                                         {{"X", "Y", "Z"}, {"X", "Y", "Z"}},
+                                                         {{"A", "Y"}, {"Y", "A"}},
+                                                         {{"U", "V"}, {"U", "V"}}}) {
+        const int channels = static_cast<int>(written.size());
+        OIIO::ImageSpec spec(1, 1, channels, OIIO::TypeDesc::FLOAT);
+        spec.channelnames = written;
+        // The number of a channel is the letter that is its name.
+        std::vector<float> letters, expected;
+        for (const std::string& name : written) letters.push_back(static_cast<float>(name[0]));
+        for (const std::string& name : read) expected.push_back(static_cast<float>(name[0]));
+        const auto out = OIIO::ImageOutput::create(path);
+        ASSERT_TRUE(out && out->open(path, spec) && out->write_image(OIIO::TypeDesc::FLOAT, letters.data()) &&
+                    out->close());
+        EXPECT_EQ(readNumberMap(path).values, expected) << written[0];
+    }
+}
+
 TEST_F(MapFile, HalfExrIsFloat) {
     NumberMap map = randomMap({20, 30}, 2, 3);
     for (float& value : map.values) value = std::round(value);
@@ -120,6 +189,18 @@ TEST_F(MapFile, DamagedExrIsRefused) {
             damaged[static_cast<size_t>(random.uniform(0, reach))] =
                 static_cast<char>(static_cast<int>(random.uniform(0, 256)));
         complaintAbout("m.exr", damaged);
+    }
+}
+
+TEST_F(MapFile, AnExrAttributeLongerThanTheFileTakesNoMemory) {
+    using namespace std::string_literals;
+    for (const std::string type : {"opaque", "string", "stringvector", "preview", "chlist"}) {
+        const std::string bytes = "\x76\x2f\x31\x01\2\0\0\0"s + "a\0"s + type + "\0"s + "\0\0\0\x60"s + "few";
+        EXPECT_THAT(complaintAbout("m.exr", bytes), HasSubstr("m.exr: expected a sound EXR"));
+        EXPECT_THAT(complaint([&] {
+                        readNumberMap(FileBytes{"in memory.exr", bytes});
+                    }),
+                    HasSubstr("in memory.exr: expected a sound EXR"));
     }
 }
 
