@@ -47,7 +47,7 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.filter = filterFromName(command.filter).value();
     request.faceSizePx = command.faceSizePx;
     request.frames = command.frames;
-    request.timesStages = !command.stats.empty();
+    request.timesStages = request.measuresError = !command.stats.empty();
     if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
     if (!command.eye.empty()) request.eyeM = eyeFromText(command.eye);
     if (command.out.empty()) return request;

@@ -2,6 +2,7 @@
 
 #include "calibration/parallel.h"
 #include "renderer/request_limits.h"
+#include "renderer/shown_error.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -64,14 +65,6 @@ std::array<bool, 6> cubeFacesSeen(const PixelRays& rays) {
         for (int x = 0; x < rays.sizePx().x; ++x)
             if (const glm::dvec3 ray = rays.at({x, y}); PixelRays::isRay(ray)) seen[cubeFaceOf(ray)] = true;
     return seen;
-}
-
-// Whether the display's right border shows what its left border shows, so that errors are counted around.
-bool isClosed(const Display& display) {
-    const double middle = 0.5 * display.sizePx.y;
-    const auto left = display.projection->unproject({0, middle});
-    const auto right = display.projection->unproject({display.sizePx.x, middle});
-    return left && right && glm::distance(glm::normalize(*left), glm::normalize(*right)) < 1e-9;
 }
 
 }  // namespace
@@ -149,18 +142,12 @@ std::vector<glm::vec4> sourcePlaces(const ImageSource& source, const PixelRays& 
 Certificate sourceError(const ImageSource& source, const Display& display, const PixelRays& rays) {
     std::vector<float> errors(pixelCount(display.sizePx), std::numeric_limits<float>::quiet_NaN());
     const std::vector<int32_t> owners(errors.size(), 0);
-    const bool closed = isClosed(display);
+    const PixelDistance distance(display);
     forEachRay(rays, [&](glm::ivec2 px, size_t index, glm::dvec3 ray) {
         const SourceFace& face = source.faces[faceOf(source, ray)];
         const glm::dvec3 shown = face.ray(glm::floor(face.place(ray)) + 0.5);
-        double least = std::numeric_limits<double>::infinity();
-        for (const glm::dvec2 at : display.projection->project(shown)) {
-            glm::dvec2 offset = glm::abs(at - centreOf(px));
-            if (closed) offset.x = std::min(offset.x, std::abs(display.sizePx.x - offset.x));
-            least = std::min(least, glm::length(offset));
-        }
         // Beyond the display's edge no pixel sees the texel's ray.
-        if (std::isfinite(least)) errors[index] = static_cast<float>(least);
+        if (const auto error = distance.fromCentreOf(px, shown)) errors[index] = static_cast<float>(*error);
     });
     return certificateOf(errors, owners, display.sizePx);
 }

@@ -41,9 +41,10 @@ struct RenderRequest {
     std::optional<int> anisotropy{};
     Style style = Style::textured;
     OutputKind output = OutputKind::color;
-    bool linearOutput = false;  // colour at float precision (EXR) rather than 8-bit sRGB
-    bool timesStages = false;   // for RenderStats::stageMs
-    int frames = 1;             // frame k turns the camera by 360 k / frames degrees
+    bool linearOutput = false;   // colour at float precision (EXR) rather than 8-bit sRGB
+    bool timesStages = false;    // for RenderStats::stageMs
+    bool measuresError = false;  // of methods without a certificate: on the position output of frame 0
+    int frames = 1;              // frame k turns the camera by 360 k / frames degrees
 };
 
 struct RenderResult {

@@ -24,6 +24,9 @@ public:
     bool dependsOnEye() const override { return false; }
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    const Lens& lens() const { return *lens_; }
+    const glm::dmat3& worldFromLens() const { return worldFromLens_; }  // of rays; a rotation
+
 private:
     LensPtr lens_;
     glm::dmat3 worldFromLens_;

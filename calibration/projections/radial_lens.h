@@ -37,6 +37,11 @@ public:
     std::optional<glm::dvec3> direction(glm::dvec2 px) const override;
     std::vector<glm::dvec2> positions(glm::dvec3 direction) const override;
 
+    const RadialFunction& function() const { return function_; }
+    glm::dvec2 centrePx() const { return centrePx_; }
+    glm::dvec2 focalPx() const { return focalPx_; }
+    double edgeRad() const { return edgeRad_; }
+
 private:
     RadialFunction function_;
     glm::dvec2 centrePx_;

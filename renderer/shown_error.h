@@ -1,0 +1,31 @@
+#pragma once
+// The geometric error of a picture, whatever drew it: how far from each pixel the display has the ray of what
+// the pixel shows.
+
+#include "calibration/pieces/certificate.h"
+#include "calibration/wall.h"
+#include "renderer/frame.h"
+
+#include <optional>
+
+namespace curvewall {
+
+// How far rays land from pixels on one display. On a closed one, whose right border shows what its left border
+// shows, distances go the shorter way around.
+class PixelDistance {
+public:
+    explicit PixelDistance(const Display& display);
+
+    // From the centre of `px` to the nearest place that sees `ray`; nothing where no place does.
+    std::optional<double> fromCentreOf(glm::ivec2 px, glm::dvec3 ray) const;
+
+private:
+    const Display& display_;
+    bool isClosed_;
+};
+
+// Over the pixels that show something, of an output of OutputKind::position with one sample. Points that the
+// display does not see anywhere count as infinitely far off.
+Certificate shownError(const Frame& position, const Display& display);
+
+}  // namespace curvewall
