@@ -147,7 +147,7 @@ Certificate sourceError(const ImageSource& source, const Display& display, const
         const SourceFace& face = source.faces[faceOf(source, ray)];
         const glm::dvec3 shown = face.ray(glm::floor(face.place(ray)) + 0.5);
         // Beyond the display's edge no pixel sees the texel's ray.
-        if (const auto error = distance.fromCentreOf(px, shown)) errors[index] = static_cast<float>(*error);
+        if (const auto error = distance.from(centreOf(px), shown)) errors[index] = static_cast<float>(*error);
     });
     return certificateOf(errors, owners, display.sizePx);
 }
