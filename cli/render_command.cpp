@@ -78,6 +78,7 @@ std::string summaryOf(const RenderStats& stats) {
 void report(const Display& display, const RenderStats& stats, const std::string& out) {
     fmt::print("{}: {}, {}, {:.1f} ms a frame{}\n", display.name, stats.method, summaryOf(stats),
                stats.frameMsMedian, out.empty() ? "" : " -> " + out);
+    if (stats.choice) fmt::print("  {}\n", stats.choice->why);
 }
 
 void run(const RenderCommand& command) {

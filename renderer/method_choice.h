@@ -3,17 +3,17 @@
 
 #include "renderer/render.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace curvewall {
 
-struct FittedPieces;
-
 struct MethodForecast {
-    RenderRequest request;  // of that method, with its knobs
-    double errorPx = 0;     // the largest geometric error
-    double frameMs = 0;     // in software, on two cores: what counts is which is less
+    RenderRequest request;            // of that method, with its knobs
+    double errorPx = 0;               // the largest geometric error
+    double frameMs = 0;               // in software, on two cores: what counts is which is less
+    std::optional<double> trialMs{};  // what a frame took, where it was tried
 };
 
 struct MethodChoice {
@@ -24,5 +24,8 @@ struct MethodChoice {
 // Of a request for Method::automatic with pieces fitted to its display at its tolerance. The reference is no
 // candidate: it is what the others are judged by.
 MethodChoice forecastMethods(const RenderRequest& request, const Display& display);
+
+// In words, the method and those of its knobs that a forecast turns: "image-based, faces of 512 px".
+std::string settingsOf(const RenderRequest& request);
 
 }  // namespace curvewall

@@ -1,6 +1,7 @@
 #include "renderer/render.h"
 
 #include "renderer/gl/egl_context.h"
+#include "renderer/methods/automatic_method.h"
 #include "renderer/methods/image_based_method.h"
 #include "renderer/methods/piecewise_method.h"
 #include "renderer/methods/reference_method.h"
@@ -36,7 +37,28 @@ struct Renderer::Impl {
     PiecewiseMethod piecewise{resources};
     ImageBasedMethod imageBased{resources};
     ReferenceMethod reference;
+    AutomaticMethod automatic;
+
+    RenderResult render(const RenderRequest& request, const Display& display);
 };
+
+RenderResult Renderer::Impl::render(const RenderRequest& request, const Display& display) {
+    switch (request.method) {
+        case Method::piecewise:
+            return piecewise.render(request, display);
+        case Method::imageBased:
+            return imageBased.render(request, display);
+        case Method::reference:
+            return reference.render(request, display);
+        case Method::automatic: {
+            RenderRequest fitted = request;
+            fitted.pieces = piecewise.piecesFor(request, display);
+            return automatic.render(fitted, display,
+                                    [&](const RenderRequest& settled) { return render(settled, display); });
+        }
+    }
+    return {};
+}
 
 Renderer::Renderer(size_t mostScenes) : impl_(std::make_unique<Impl>(mostScenes)) {}
 Renderer::~Renderer() = default;
@@ -53,18 +75,7 @@ RenderResult Renderer::render(const RenderRequest& asked) {
         const int usual = impl_->context->isSoftware() ? 1 : kMostAnisotropy;
         setAnisotropy(impl_->resources.scene(request.scene)->gpu, request.anisotropy.value_or(usual));
     }
-    RenderResult result;
-    switch (request.method) {
-        case Method::piecewise:
-            result = impl_->piecewise.render(request, display);
-            break;
-        case Method::imageBased:
-            result = impl_->imageBased.render(request, display);
-            break;
-        case Method::reference:
-            result = impl_->reference.render(request, display);
-            break;
-    }
+    RenderResult result = impl_->render(request, display);
     result.stats.triangles = request.scene->triangles.size();
     result.stats.samples = request.samples;
     result.stats.frames = request.frames;

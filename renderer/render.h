@@ -19,7 +19,12 @@ namespace curvewall {
 
 struct FittedPieces;
 
-enum class Method { piecewise, imageBased, reference };
+enum class Method {
+    piecewise,
+    imageBased,
+    reference,
+    automatic,  // the fastest of those that meet the tolerance, but for the reference
+};
 
 struct RenderRequest {
     WallPtr wall;

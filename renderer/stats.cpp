@@ -3,6 +3,19 @@
 #include <nlohmann/json.hpp>
 
 namespace curvewall {
+namespace {
+
+nlohmann::json toJson(const ChoiceStats& choice) {
+    nlohmann::json json = {{"why", choice.why}, {"ruled_out", choice.ruledOut}};
+    for (const auto& [settings, errorPx, frameMs, trialMs] : choice.forecasts) {
+        nlohmann::json& forecast = json["forecasts"].emplace_back();
+        forecast = {{"settings", settings}, {"error_px", errorPx}, {"frame_ms", frameMs}};
+        if (trialMs) forecast["trial_ms"] = *trialMs;
+    }
+    return json;
+}
+
+}  // namespace
 
 nlohmann::json toJson(const RenderStats& stats) {
     nlohmann::json json = {
@@ -38,6 +51,7 @@ nlohmann::json toJson(const RenderStats& stats) {
         json["source"] = stats.source;
         json["filter"] = stats.filter;
     }
+    if (stats.choice) json["auto"] = toJson(*stats.choice);
     return json;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,19 @@ struct GeometricError {
 struct StageMs {
     std::string stage;
     double ms = 0;
+};
+
+// Why this method, where that was left open.
+struct ChoiceStats {
+    struct Forecast {
+        std::string settings;
+        double errorPx = 0;
+        double frameMs = 0;
+        std::optional<double> trialMs{};
+    };
+    std::string why;
+    std::vector<Forecast> forecasts;    // the one chosen first
+    std::vector<std::string> ruledOut;  // "METHOD: why"
 };
 
 struct RenderStats {
@@ -47,6 +61,8 @@ struct RenderStats {
     double peakMemoryMib = 0;
     double sceneMemoryMib = 0;  // of the GPU, for the scene with its textures
     double pairsMemoryMib = 0;  // and for what finds its pairs
+
+    std::optional<ChoiceStats> choice{};
 
     double replicationRatio() const {
         return triangles == 0 ? 0 : static_cast<double>(pairs) / static_cast<double>(triangles);

@@ -13,6 +13,9 @@ constexpr int kFitsAtOnce = 4;
 // As many as the renderer keeps on the GPU.
 constexpr size_t kFitsKept = 16;
 
+// What they cost, and so the choice among all methods, follows from how many there are.
+bool needsPieces(Method method) { return method == Method::piecewise || method == Method::automatic; }
+
 }  // namespace
 
 FitQueue::FitQueue(RenderQueue::Settings settings, RenderQueue& renders, FitFunction fit, RefitFunction refit)
@@ -29,7 +32,7 @@ FitQueue::~FitQueue() { stop(); }
 
 void FitQueue::submit(RenderQueue::Job job) {
     job.arrived = settings_.now();
-    if (job.call.request.method != Method::piecewise) return renders_.submit(std::move(job));
+    if (!needsPieces(job.call.request.method)) return renders_.submit(std::move(job));
     sweep();
     const Key key = keyOf(job.call.request);
     std::unique_lock lock(mutex_);

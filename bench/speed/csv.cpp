@@ -8,14 +8,14 @@ namespace curvewall {
 void printHeader() { std::cout << "part,case,quantity,value" << std::endl; }
 
 void print(const Row& row, std::string_view quantity, std::string_view text) {
-    std::cout << row.part << ",\"" << row.name << "\"," << quantity << ',' << text << std::endl;
+    std::cout << row.part << ",\"" << row.name << "\"," << quantity << ",\"" << text << '"' << std::endl;
 }
 
 void print(const Row& row, std::string_view quantity, double value) {
     std::ostringstream text;
     text.precision(10);
     text << value;
-    print(row, quantity, text.str());
+    std::cout << row.part << ",\"" << row.name << "\"," << quantity << ',' << text.str() << std::endl;
 }
 
 void print(const Row& row, const RenderStats& stats) {

@@ -24,9 +24,9 @@ struct Part {
 };
 
 constexpr std::array kParts{
-    Part{"pairs", measurePairs},         Part{"ratios", measureRatios}, Part{"stages", measureStages},
-    Part{"triangles", measureTriangles}, Part{"pieces", measurePieces}, Part{"engines", measureEngines},
-    Part{"look", measureLook},
+    Part{"pairs", measurePairs},         Part{"ratios", measureRatios},   Part{"stages", measureStages},
+    Part{"triangles", measureTriangles}, Part{"pieces", measurePieces},   Part{"engines", measureEngines},
+    Part{"look", measureLook},           Part{"methods", measureMethods},
 };
 
 void measure(const std::vector<std::string>& names, const SpeedOptions& options) {
@@ -56,6 +56,11 @@ int main(int argc, char** argv) {
     app.add_option("--most-triangles", options.mostTriangles, "Of the largest city")
         ->check(CLI::Range(kMinCityTriangles, kMaxCityTriangles))
         ->capture_default_str();
+    app.add_option("--walls", options.walls,
+                   "Wall files, for the part methods; without them nothing is measured");
+    app.add_flag("--first-displays", options.firstDisplays, "Only one display of each of these walls");
+    app.add_option("--scenes", options.scenes, "Scenes, for the part methods")->capture_default_str();
+    app.add_option("--tolerance", options.tolerancePx, "For the part methods, pixels")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     try {
         measure(names, options);

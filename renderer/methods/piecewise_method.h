@@ -14,6 +14,11 @@ public:
     // Throws UsageError for what cannot be done.
     RenderResult render(const RenderRequest& request, const Display& display);
 
+    // Those that came with the request, or fitted now and kept.
+    std::shared_ptr<const FittedPieces> piecesFor(const RenderRequest& request, const Display& display) {
+        return preparedPieces(request, display)->fitted;
+    }
+
 private:
     struct PiecesKey {
         WallPtr wall;
