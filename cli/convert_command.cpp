@@ -13,7 +13,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
@@ -77,27 +76,11 @@ ConvertedKind kindOf(const ConvertCommand& command) {
     throw UsageError("--as: expected one of " + words + ", found \"" + command.as + "\"");
 }
 
-std::optional<glm::ivec2> gridOf(const std::string& text) {
-    constexpr int kMost = 16384;
-    if (text.empty()) return std::nullopt;
-    const char* const end = text.data() + text.size();
-    glm::ivec2 nodes(0);
-    const auto [cross, widthError] = std::from_chars(text.data(), end, nodes.x);
-    if (widthError == std::errc() && cross != end && *cross == 'x') {
-        const auto [rest, heightError] = std::from_chars(cross + 1, end, nodes.y);
-        if (heightError == std::errc() && rest == end && nodes.x >= 2 && nodes.x <= kMost && nodes.y >= 2 &&
-            nodes.y <= kMost)
-            return nodes;
-    }
-    throw UsageError(
-        fmt::format("--grid: expected COLUMNSxROWS of nodes, each from 2 to {}, found \"{}\"", kMost, text));
-}
-
 ConversionRequest requestOf(const ConvertCommand& command, const Wall& wall) {
     ConversionRequest request;
     request.kind = kindOf(command);
     request.displays = chosenDisplays(wall, command.display);
-    request.grid = gridOf(command.grid);
+    request.grid = countsFrom("--grid", "COLUMNSxROWS of nodes", command.grid, 2);
     if (request.kind == ConvertedKind::mpcdi) {
         request.paths = {command.out};
         return request;

@@ -1,39 +1,39 @@
 #include "cli/option_checks.h"
 
+#include "calibration/errors.h"
+#include "calibration/files/map_file.h"
+#include "calibration/files/number_text.h"
 #include "renderer/request_limits.h"
 
 #include <fmt/core.h>
 
-#include <charconv>
+#include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <stdexcept>
 
 namespace curvewall {
-namespace {
-
-template <class Number>
-std::optional<Number> numberIn(const std::string& text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
-}  // namespace
-
 std::string checkTolerance(std::string& text) {
-    const auto px = numberIn<double>(text);
+    const auto px = numberFrom<double>(text);
     if (px && *px >= kLeastTolerancePx && *px <= kMostTolerancePx) return "";
     return fmt::format("expected a number of pixels from {} to {}, found {}", kLeastTolerancePx,
                        kMostTolerancePx, text);
 }
 
 std::string checkFaceSize(std::string& text) {
-    const auto px = numberIn<int>(text);
+    const auto px = numberFrom<int>(text);
     if (px && (*px == 0 || (*px >= kLeastFacePx && *px <= kMostFacePx))) return "";
     return fmt::format("expected 0 or a number of pixels from {} to {}, found {}", kLeastFacePx, kMostFacePx,
                        text);
+}
+
+std::optional<glm::ivec2> countsFrom(const std::string& option, const std::string& expected,
+                                     const std::string& text, int least) {
+    if (text.empty()) return std::nullopt;
+    const size_t cross = std::min(text.find('x'), text.size() - 1);
+    const auto x = numberFrom<int>(text.substr(0, cross)), y = numberFrom<int>(text.substr(cross + 1));
+    if (x && y && *x >= least && *x <= kMostPx && *y >= least && *y <= kMostPx) return glm::ivec2(*x, *y);
+    throw UsageError(fmt::format("{}: expected {}, each from {} to {}, found \"{}\"", option, expected, least,
+                                 kMostPx, text));
 }
 
 void requireFolderOf(const std::string& path) {

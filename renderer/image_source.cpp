@@ -83,7 +83,7 @@ Certificate errorOfShown(const ImageSource& source, const std::vector<glm::vec4>
         if (place.w == 0) return;
         const SourceFace& face = source.faces[static_cast<size_t>(place.z)];
         // Beyond the display's edge no pixel sees the ray.
-        if (const auto error = distance.fromCentreOf(px, face.ray(shownFor({place.x, place.y}))))
+        if (const auto error = distance.from(centreOf(px), face.ray(shownFor({place.x, place.y}))))
             errors[index] = static_cast<float>(*error);
     });
     return certificateOf(errors, owners, display.sizePx);

@@ -24,10 +24,10 @@ bool isClosed(const Display& display) {
 
 PixelDistance::PixelDistance(const Display& display) : display_(display), isClosed_(isClosed(display)) {}
 
-std::optional<double> PixelDistance::fromCentreOf(glm::ivec2 px, glm::dvec3 ray) const {
+std::optional<double> PixelDistance::from(glm::dvec2 px, glm::dvec3 ray) const {
     std::optional<double> least;
     for (const glm::dvec2 at : display_.projection->project(ray)) {
-        glm::dvec2 offset = glm::abs(at - centreOf(px));
+        glm::dvec2 offset = glm::abs(at - px);
         if (isClosed_) offset.x = std::min(offset.x, std::abs(display_.sizePx.x - offset.x));
         const double distance = glm::length(offset);
         least = std::min(distance, least.value_or(distance));
@@ -50,7 +50,7 @@ Certificate shownError(const Frame& position, const Display& display) {
                 constexpr double kNowhere = std::numeric_limits<double>::infinity();
                 owners[index] = 0;
                 errors[index] = static_cast<float>(
-                    distance.fromCentreOf({x, y}, {texel[0], texel[1], texel[2]}).value_or(kNowhere));
+                    distance.from(centreOf({x, y}), {texel[0], texel[1], texel[2]}).value_or(kNowhere));
             }
     });
     return certificateOf(errors, owners, position.sizePx);

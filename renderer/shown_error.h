@@ -10,14 +10,14 @@
 
 namespace curvewall {
 
-// How far rays land from pixels on one display. On a closed one, whose right border shows what its left border
-// shows, distances go the shorter way around.
+// How far rays land from pixels on one display. On a closed one, whose right border shows what its left
+// border shows, distances go the shorter way around.
 class PixelDistance {
 public:
     explicit PixelDistance(const Display& display);
 
-    // From the centre of `px` to the nearest place that sees `ray`; nothing where no place does.
-    std::optional<double> fromCentreOf(glm::ivec2 px, glm::dvec3 ray) const;
+    // To the nearest place that sees `ray`; nothing where no place does.
+    std::optional<double> from(glm::dvec2 px, glm::dvec3 ray) const;
 
 private:
     const Display& display_;

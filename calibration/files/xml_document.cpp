@@ -1,8 +1,6 @@
 #include "calibration/files/xml_document.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <iterator>
 #include <pugixml.hpp>
 #include <utility>
@@ -103,22 +101,6 @@ std::string xmlRootName(std::string_view bytes) {
     return "";
 }
 
-std::string_view trimmed(std::string_view text) {
-    const size_t begin = text.find_first_not_of(kWhiteSpace);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kWhiteSpace) + 1 - begin);
-}
-
-std::optional<double> parseNumber(std::string_view text) {
-    text = trimmed(text);
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-        return std::nullopt;
-    return number;
-}
-
 const std::string& XmlElement::path() const { return document_->path; }
 
 std::string XmlElement::name() const { return pugi::xml_node(node_).name(); }
@@ -193,7 +175,7 @@ std::vector<std::pair<std::string, std::string>> XmlElement::attributes() const 
 }
 
 double XmlElement::number() const {
-    const auto number = parseNumber(text());
+    const auto number = finiteNumberFrom(text());
     if (!number) throw error("a finite number", "\"" + text() + "\"");
     return *number;
 }
@@ -207,7 +189,7 @@ std::optional<double> XmlElement::childNumber(std::string_view name) const {
 std::optional<double> XmlElement::attributeNumber(std::string_view name) const {
     const auto value = attribute(name);
     if (!value) return std::nullopt;
-    const auto number = parseNumber(*value);
+    const auto number = finiteNumberFrom(*value);
     if (!number)
         throw InputError(path(), place() + "/@" + std::string(name), "a finite number", "\"" + *value + "\"");
     return number;

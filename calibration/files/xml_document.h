@@ -3,6 +3,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/files/file_bytes.h"
+#include "calibration/files/number_text.h"
 
 #include <memory>
 #include <optional>
@@ -61,11 +62,5 @@ bool looksLikeXml(std::string_view bytes);
 
 // The name of the root element, without parsing what follows it; empty for what is no XML in UTF-8.
 std::string xmlRootName(std::string_view bytes);
-
-// The whole text as a finite number, whatever the locale; white space around it and a plus sign pass.
-std::optional<double> parseNumber(std::string_view text);
-
-// Without the white space around it.
-std::string_view trimmed(std::string_view text);
 
 }  // namespace curvewall

@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/files/map_file.h"
+#include "calibration/files/number_text.h"
 #include "calibration/files/yaml_values.h"
 #include "calibration/formats/display_names.h"
 #include "calibration/projections/camera_lens.h"
@@ -13,7 +14,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -113,22 +113,13 @@ InputError wrong(const Field& field, const std::string& expected, const std::str
     return {field.path, field.name, expected, found};
 }
 
-std::optional<double> numberOf(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-        return std::nullopt;
-    return number;
-}
-
 std::vector<double> numbersOf(const Field& field, std::initializer_list<size_t> counts,
                               const std::string& expected) {
     if (std::ranges::find(counts, field.texts.size()) == counts.end())
         throw wrong(field, expected, std::to_string(field.texts.size()) + " values");
     std::vector<double> numbers;
     for (const std::string& text : field.texts) {
-        const auto number = numberOf(text);
+        const auto number = finiteNumberFrom(text);
         if (!number || std::abs(*number) > kMostNumber)
             throw wrong(field, "numbers from -1e6 to 1e6", describe(nlohmann::json(text)));
         numbers.push_back(*number);
@@ -137,7 +128,7 @@ std::vector<double> numbersOf(const Field& field, std::initializer_list<size_t> 
 }
 
 int pixelsOf(const Field& field, const std::string& text) {
-    const auto number = numberOf(text);
+    const auto number = finiteNumberFrom(text);
     if (!number || *number < 1 || *number > double{kMostPx} || *number != std::floor(*number))
         throw wrong(field, "a whole number of pixels from 1 to 16384", describe(nlohmann::json(text)));
     return static_cast<int>(*number);

@@ -52,7 +52,7 @@ public:
         const json* value = find(key);
         if (!value) return std::nullopt;
         if (!value->is_string()) return *JsonFields(object_, place_).number(key, range);
-        const auto number = parseNumber(value->get_ref<const std::string&>());
+        const auto number = finiteNumberFrom(value->get_ref<const std::string&>());
         if (!number) throw FieldError(FieldError::Kind::shape, placeOf(key), "a number", describe(*value));
         const json numbers{{key, *number}};
         return *JsonFields(numbers, place_).number(key, range);

@@ -3,29 +3,12 @@
 #include "calibration/errors.h"
 
 #include <algorithm>
-#include <charconv>
 
 namespace curvewall {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-')
-        text.remove_prefix(1);  // std::from_chars has none
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 }  // namespace
 
@@ -66,9 +49,9 @@ std::vector<std::string_view> fieldsOf(std::string_view text, char separator) {
     }
 }
 
-std::optional<double> numberOf(std::string_view text) { return parsed<double>(text); }
+std::optional<double> numberOf(std::string_view text) { return numberFrom<double>(text); }
 
-std::optional<int64_t> wholeNumberOf(std::string_view text) { return parsed<int64_t>(text); }
+std::optional<int64_t> wholeNumberOf(std::string_view text) { return numberFrom<int64_t>(text); }
 
 std::optional<std::vector<double>> numbersOf(const std::vector<std::string_view>& texts, size_t count) {
     if (texts.size() != count) return std::nullopt;

@@ -2,6 +2,7 @@
 // Calibrations in plain text, a line at a time. Numbers are read alike in every locale.
 
 #include "calibration/files/file_bytes.h"
+#include "calibration/files/number_text.h"
 
 #include <cstdint>
 #include <optional>

@@ -52,7 +52,7 @@ std::vector<double> listOf(const FileBytes& ini, const std::string& key, const s
     std::vector<double> numbers;
     while (true) {
         const size_t end = rest.find_first_of(",;");
-        const auto number = parseNumber(rest.substr(0, end));
+        const auto number = finiteNumberFrom(rest.substr(0, end));
         if (!number || numbers.size() == count) throw fail();
         numbers.push_back(*number);
         if (end == std::string_view::npos) break;
@@ -88,7 +88,7 @@ private:
 bool uses(const Channel& channel, const std::string& warpFile, int index) {
     const auto file = channel.text("calibfile");
     if (!file || lowerCase(bareName(*file)) != lowerCase(warpFile)) return false;
-    const auto number = parseNumber(channel.text("calibindex").value_or("0"));
+    const auto number = finiteNumberFrom(channel.text("calibindex").value_or("0"));
     return number && *number == index;
 }
 
@@ -106,7 +106,7 @@ ViosoView viewOf(const Channel& channel, std::string name) {
             view.viosoFromHost = matrix;
         }
     const auto automatic = channel.text("bautoview");
-    view.isAutomatic = automatic && parseNumber(*automatic).value_or(0) != 0;
+    view.isAutomatic = automatic && finiteNumberFrom(*automatic).value_or(0) != 0;
     return view;
 }
 

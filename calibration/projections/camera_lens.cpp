@@ -76,8 +76,11 @@ PinholeLens::PinholeLens(const CameraIntrinsics& intrinsics) : intrinsics_(intri
     for (int y = 0; y <= kTableSteps; ++y)
         for (int x = 0; x <= kTableSteps; ++x) {
             const glm::dvec2 distorted = (2.0 / kTableSteps * glm::dvec2(x, y) - 1.0) * tableExtent_;
+            // The search for what is not there would take longest.
             const glm::dvec3 found =
-                maths::pinholeUndistorted(terms_.data(), distorted, mostRadius_, tolerance());
+                isWithinReach(distorted)
+                    ? maths::pinholeUndistorted(terms_.data(), distorted, mostRadius_, tolerance())
+                    : glm::dvec3(0);
             table_.push_back(found.z > 0 ? glm::dvec2(found)
                                          : glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
         }
@@ -85,6 +88,10 @@ PinholeLens::PinholeLens(const CameraIntrinsics& intrinsics) : intrinsics_(intri
 
 double PinholeLens::tolerance() const {
     return kTolerancePx / std::max(intrinsics_.focalPx.x, intrinsics_.focalPx.y);
+}
+
+bool PinholeLens::isWithinReach(glm::dvec2 distorted) const {
+    return glm::dot(distorted, distorted) <= mostDistortedRadius_ * mostDistortedRadius_;
 }
 
 // NaN beyond the table.
@@ -105,8 +112,7 @@ std::optional<glm::dvec3> PinholeLens::direction(glm::dvec2 px) const {
     const glm::dvec2 sensor = (px - kFirstCentrePx - intrinsics_.principalPx) / intrinsics_.focalPx;
     const glm::dvec3 untilted = maths::pinholeTilted(untilt_, sensor);
     const glm::dvec2 distorted(untilted);
-    if (!(untilted.z > 0 && glm::dot(distorted, distorted) <= mostDistortedRadius_ * mostDistortedRadius_))
-        return std::nullopt;
+    if (!(untilted.z > 0 && isWithinReach(distorted))) return std::nullopt;
     const glm::dvec2 start = startFor(distorted);
     const glm::dvec3 found =
         std::isnan(start.x + start.y)

@@ -31,6 +31,7 @@ public:
     double mostRadius() const { return mostRadius_; }
 
 private:
+    bool isWithinReach(glm::dvec2 distorted) const;
     glm::dvec2 startFor(glm::dvec2 distorted) const;
     double tolerance() const;
 
