@@ -27,10 +27,10 @@ namespace {
 struct RenderCommand {
     WallOption wall;
     std::string display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube",
-                                             filter = "linear", style = "textured", outputKind = "color", out,
-                                             stats;
+                                             filter = "linear", faces = "separate", lookup = "pixel",
+                                             style = "textured", outputKind = "color", out, stats;
     double tolerancePx = kDefaultTolerancePx;
-    int samples = 1, faceSizePx = 0, frames = 1;
+    int samples = 1, faceSizePx = 0, meshStepPx = kDefaultMeshStepPx, frames = 1;
     std::optional<int> anisotropy;
 };
 
@@ -46,6 +46,9 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.source = sourceFromName(command.source).value();
     request.filter = filterFromName(command.filter).value();
     request.faceSizePx = command.faceSizePx;
+    request.facePass = facePassFromName(command.faces).value();
+    request.lookup = lookupFromName(command.lookup).value();
+    request.meshStepPx = command.meshStepPx;
     request.frames = command.frames;
     request.timesStages = request.measuresError = !command.stats.empty();
     if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
@@ -144,6 +147,15 @@ void addRenderCommand(CLI::App& app) {
         ->capture_default_str();
     render->add_option("--filter", command->filter, "How image-based resamples: " + filterNames())
         ->check(oneOf(filterFromName, filterNames()))
+        ->capture_default_str();
+    render->add_option("--faces", command->faces, "How image-based draws the faces: " + facePassNames())
+        ->check(oneOf(facePassFromName, facePassNames()))
+        ->capture_default_str();
+    render->add_option("--lookup", command->lookup, "Where image-based looks the source up: " + lookupNames())
+        ->check(oneOf(lookupFromName, lookupNames()))
+        ->capture_default_str();
+    render->add_option("--mesh-step", command->meshStepPx, "Of --lookup mesh: pixels along a cell")
+        ->check(CLI::Range(kLeastMeshStepPx, kMostMeshStepPx))
         ->capture_default_str();
     render
         ->add_option("--face-size", command->faceSizePx,

@@ -147,7 +147,7 @@ GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     for (const Piece& piece : mesh.pieces)
         gpu.frontIsClockwise.push_back(glm::determinant(piece.screenFromRay) > 0);
     const std::vector<glm::vec4> rows = pieceRows(mesh, static_cast<size_t>(gpu.clipPlanes));
-    gpu.firstRows = {glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
+    gpu.rows = {{glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])}};
     gpu.pieces = makeBuffer(std::span<const glm::vec4>(rows));
     const std::vector<ConeNode> tree = buildPieceTree(mesh, guardPx);
     const std::vector<GpuConeNode> nodes = gpuNodes(tree);
@@ -155,6 +155,21 @@ GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx) {
     gpu.nodes = makeBuffer(std::span<const GpuConeNode>(nodes));
     gpu.nodeGrid = gpuGrid(buildNodeGrid(mesh, tree, guardPx));
     gpu.corners = makeBuffer(std::span<const glm::vec4>(guardedCornersOfAll(mesh, guardPx)));
+    return gpu;
+}
+
+GpuPieces uploadLayers(std::span<const PieceMesh> layers) {
+    GpuPieces gpu;
+    gpu.sizePx = layers.front().sizePx;
+    gpu.pieceCount = static_cast<int>(layers.size());
+    std::vector<glm::vec4> all;
+    for (const PieceMesh& layer : layers) {
+        gpu.frontIsClockwise.push_back(glm::determinant(layer.pieces.front().screenFromRay) > 0);
+        const std::vector<glm::vec4> rows = pieceRows(layer, 0);
+        gpu.rows.push_back({glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])});
+        all.insert(all.end(), rows.begin(), rows.end());
+    }
+    gpu.pieces = makeBuffer(std::span<const glm::vec4>(all));
     return gpu;
 }
 

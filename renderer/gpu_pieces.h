@@ -22,7 +22,7 @@ struct GpuPieces {
     int clipPlanes = 0;  // planes a piece is clipped by; edges on the display's border need none
     std::vector<bool>
         frontIsClockwise;  // of each piece: how triangles seen from the front turn on the screen
-    std::array<glm::vec3, 3> firstRows{};  // of the first piece: H to clip space
+    std::vector<std::array<glm::vec3, 3>> rows;  // H to clip space: of the first piece, or of every layer
     GlBuffer pieces;  // three rows of H to clip space, then clipPlanes planes, each a vec4
     uint32_t nodeCount = 0;
     GlBuffer nodes;     // the piece tree
@@ -32,6 +32,10 @@ struct GpuPieces {
 
 // `guardPx` is how far beyond its edges the tree still finds a piece.
 GpuPieces uploadPieces(const PieceMesh& mesh, double guardPx = kGuardPx);
+
+// Meshes of one piece each, for pictures that are drawn at once into the layers of a target. Only for
+// CornerSource::layered; `sizePx` is the first one's.
+GpuPieces uploadLayers(std::span<const PieceMesh> layers);
 
 // Scale and offset that make clip space whole numbers at the samples of a pass; zeros where it has several a
 // pixel.

@@ -1,23 +1,47 @@
 #include "renderer/image_based.h"
 
+#include "calibration/errors.h"
+
 namespace curvewall {
 
-GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double distanceM) {
+GpuSource uploadSource(const ImageSource& source, FacePass pass, double distanceM, GpuLookup lookup) {
     GpuSource gpu;
     gpu.faceSizePx = source.faceSizePx;
-    gpu.sizePx = source.faces.empty() ? glm::ivec2(1) : source.faces.front().sizePx;
+    gpu.texelCount = texelCountOf(source);
+    gpu.layout = {layerSizeOf(source), {}, source.levels, source.faces.empty() ? FacePass::separate : pass};
+    gpu.lookup = std::move(lookup);
+    std::vector<PieceMesh> meshes;
     for (const SourceFace& face : source.faces) {
-        const PieceMesh mesh = faceMesh(face, distanceM);
+        gpu.layout.sizesPx.push_back(face.sizePx);
+        meshes.push_back(faceMesh(face, distanceM));
+    }
+    if (gpu.layout.pass == FacePass::layered) {
+        gpu.layers = uploadLayers(meshes);
+        return gpu;
+    }
+    for (const PieceMesh& mesh : meshes) {
         gpu.faces.push_back(uploadPieces(mesh));
         gpu.facesForStrokes.push_back(uploadStrokePieces(mesh));
     }
-    gpu.places = uploadPlaces(sourcePlaces(source, rays), rays.sizePx());
     return gpu;
+}
+
+GeometryPath pathThrough(const GpuSource& source) {
+    if (source.layout.pass == FacePass::separate) return {};
+    return {.source = CornerSource::layered, .layers = source.layers.pieceCount};
 }
 
 ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs,
                                        const GpuScene& scene, const GpuSource& source)
     : programs_(programs), source_(source) {
+    if (source.layout.pass == FacePass::layered) {
+        if (scene.strokes)
+            throw UsageError(
+                "layered faces hold surfaces only, and this scene has points or lines; separate "
+                "faces hold them");
+        faces_.emplace_back(programs, scene, source.layers, nullptr, PieceOwners{});
+        return;
+    }
     std::shared_ptr<const StrokePrograms> forStrokes;
     if (scene.strokes)
         forStrokes = std::make_shared<const StrokePrograms>(*scene.scene, programs->look(), false);
@@ -33,10 +57,17 @@ ImageBasedRenderer::ImageBasedRenderer(const std::shared_ptr<const ScenePrograms
 void ImageBasedRenderer::record(const SceneView& view, const FacePictures& pictures,
                                 const Resampler& resampler, const FrameTarget& target, glm::vec3 background) {
     timer_.begin("faces");
-    for (size_t i = 0; i < faces_.size(); ++i)
-        pictures.draw(i, background, [&](const FramePass& pass) { faces_[i].record(view, pass); });
+    if (source_.layout.pass == FacePass::layered)
+        pictures.drawAll(background, [&](const FramePass& pass) { faces_.front().record(view, pass); });
+    else
+        for (size_t i = 0; i < faces_.size(); ++i)
+            pictures.draw(i, background, [&](const FramePass& pass) { faces_[i].record(view, pass); });
+    if (source_.layout.levels > 0) {
+        timer_.begin("levels");
+        pictures.makeLevels();
+    }
     timer_.begin("resample");
-    resampler.record(pictures.texture(), source_.places, target, background);
+    resampler.record(pictures.texture(), source_.lookup, target, background);
     timer_.end();
 }
 

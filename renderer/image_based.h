@@ -16,18 +16,25 @@ namespace curvewall {
 // A source for one display, on the GPU.
 struct GpuSource {
     int faceSizePx = 0;
-    glm::ivec2 sizePx{0};          // of every picture
-    std::vector<GpuPieces> faces;  // each one piece
-    std::vector<StrokePieces> facesForStrokes;
-    GlTexture places;
+    uint64_t texelCount = 0;  // of all pictures
+    PicturesLayout layout;
+    std::vector<GpuPieces> faces;               // each one piece; none of layered ones
+    std::vector<StrokePieces> facesForStrokes;  // none of layered ones
+    GpuPieces layers;                           // all of layered ones
+    GpuLookup lookup;
 };
 
-// The facets are `distanceM` from the eye, which places the near cut.
-GpuSource uploadSource(const ImageSource& source, const PixelRays& rays, double distanceM);
+// The facets are `distanceM` from the eye, which places the near cut. A source without a face is never
+// layered.
+GpuSource uploadSource(const ImageSource& source, FacePass pass, double distanceM, GpuLookup lookup);
+
+// How the corners of a scene get into the pictures of the source.
+GeometryPath pathThrough(const GpuSource& source);
 
 class ImageBasedRenderer {
 public:
-    // The programs must be those of pathThrough() a face. The scene and the source must outlive it.
+    // The programs must be those of pathThrough() the source. The scene and the source must outlive it.
+    // Throws UsageError for points and lines in layered pictures.
     ImageBasedRenderer(const std::shared_ptr<const ScenePrograms>& programs, const GpuScene& scene,
                        const GpuSource& source);
 
@@ -48,7 +55,7 @@ public:
 private:
     std::shared_ptr<const ScenePrograms> programs_;
     const GpuSource& source_;
-    std::vector<PiecewiseRenderer> faces_;
+    std::vector<PiecewiseRenderer> faces_;  // one for all where they are layered
     StageTimer timer_;
 };
 

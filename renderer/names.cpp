@@ -20,9 +20,15 @@ constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
                                       {Engine::geometry, "geometry"},
                                       {Engine::tessellation, "tessellation"},
                                       {Engine::loop, "loop"}};
-constexpr Named<SourceKind> kSources[] = {{SourceKind::cube, "cube"}, {SourceKind::planar, "planar"}};
-constexpr Named<SourceFilter> kFilters[] = {
-    {SourceFilter::nearest, "nearest"}, {SourceFilter::linear, "linear"}, {SourceFilter::bicubic, "bicubic"}};
+constexpr Named<SourceKind> kSources[] = {
+    {SourceKind::cube, "cube"}, {SourceKind::hemicube, "hemicube"}, {SourceKind::planar, "planar"}};
+constexpr Named<SourceFilter> kFilters[] = {{SourceFilter::nearest, "nearest"},
+                                            {SourceFilter::linear, "linear"},
+                                            {SourceFilter::bicubic, "bicubic"},
+                                            {SourceFilter::mipmap, "mipmap"},
+                                            {SourceFilter::anisotropic, "anisotropic"}};
+constexpr Named<FacePass> kFacePasses[] = {{FacePass::separate, "separate"}, {FacePass::layered, "layered"}};
+constexpr Named<SourceLookup> kLookups[] = {{SourceLookup::pixel, "pixel"}, {SourceLookup::mesh, "mesh"}};
 constexpr Named<Style> kStyles[] = {{Style::textured, "textured"},
                                     {Style::unlit, "unlit"},
                                     {Style::wireframe, "wireframe"},
@@ -65,6 +71,8 @@ std::optional<Method> methodFromName(std::string_view name) { return fromName(kM
 std::optional<Engine> engineFromName(std::string_view name) { return fromName(kEngines, name); }
 std::optional<SourceKind> sourceFromName(std::string_view name) { return fromName(kSources, name); }
 std::optional<SourceFilter> filterFromName(std::string_view name) { return fromName(kFilters, name); }
+std::optional<FacePass> facePassFromName(std::string_view name) { return fromName(kFacePasses, name); }
+std::optional<SourceLookup> lookupFromName(std::string_view name) { return fromName(kLookups, name); }
 std::optional<Style> styleFromName(std::string_view name) { return fromName(kStyles, name); }
 std::optional<OutputKind> outputKindFromName(std::string_view name) { return fromName(kOutputKinds, name); }
 std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
@@ -75,6 +83,8 @@ std::string_view nameOf(Method method) { return toName(kMethods, method); }
 std::string_view nameOf(Engine engine) { return toName(kEngines, engine); }
 std::string_view nameOf(SourceKind source) { return toName(kSources, source); }
 std::string_view nameOf(SourceFilter filter) { return toName(kFilters, filter); }
+std::string_view nameOf(FacePass pass) { return toName(kFacePasses, pass); }
+std::string_view nameOf(SourceLookup lookup) { return toName(kLookups, lookup); }
 std::string_view nameOf(Style style) { return toName(kStyles, style); }
 std::string_view nameOf(OutputKind output) { return toName(kOutputKinds, output); }
 std::string_view nameOf(ImageFormat format) { return toName(kImageFormats, format); }
@@ -83,6 +93,8 @@ std::string methodNames() { return allNames(kMethods); }
 std::string engineNames() { return allNames(kEngines); }
 std::string sourceNames() { return allNames(kSources); }
 std::string filterNames() { return allNames(kFilters); }
+std::string facePassNames() { return allNames(kFacePasses); }
+std::string lookupNames() { return allNames(kLookups); }
 std::string styleNames() { return allNames(kStyles); }
 std::string outputKindNames() { return allNames(kOutputKinds); }
 std::string imageFormatNames() { return allNames(kImageFormats); }

@@ -4,12 +4,15 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace curvewall {
 PlainDraw::PlainDraw(const GpuPieces& pieces) {
-    // Clip space is |x| <= w and |y| <= w, and each of these is a plane through the eye.
-    const auto& [x, y, w] = pieces.firstRows;
-    sides_ = {w + x, w - x, w + y, w - y};
-    for (glm::vec3& side : sides_) side = glm::normalize(side);
+    for (const auto& [x, y, w] : pieces.rows) {
+        // Clip space is |x| <= w and |y| <= w, and each of these is a plane through the eye.
+        Sides& sides = sides_.emplace_back(Sides{w + x, w - x, w + y, w - y});
+        for (glm::vec3& side : sides) side = glm::normalize(side);
+    }
 }
 
 void PlainDraw::findRuns(const SceneChunk& chunk, const ChunkRange& range, const SceneView& view) {
@@ -30,9 +33,11 @@ bool PlainDraw::isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneVi
     const glm::vec3 toCentre = view.wallFromScene * (meshlet.centreM + view.originFromEyeM);
     // What the subtraction of the eye rounds off is a share of the distance.
     const float radius = meshlet.radiusM + 1e-6f * glm::length(toCentre);
-    for (const glm::vec3& side : sides_)
-        if (glm::dot(side, toCentre) < -radius) return false;
-    return !(isSingleSided && isBehind(meshlet, -view.originFromEyeM));
+    const bool isInside = std::ranges::any_of(sides_, [&](const Sides& sides) {
+        return std::ranges::all_of(
+            sides, [&](const glm::vec3& side) { return glm::dot(side, toCentre) >= -radius; });
+    });
+    return isInside && !(isSingleSided && isBehind(meshlet, -view.originFromEyeM));
 }
 
 void PlainDraw::add(uint32_t firstTriangle, uint32_t triangleCount) {
@@ -43,6 +48,8 @@ void PlainDraw::add(uint32_t firstTriangle, uint32_t triangleCount) {
 void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) {
     draw.timer.begin("surfaces");
     bindStorage(2, draw.pieces.pieces);
+    const bool isLayered = sides_.size() > 1;
+    if (isLayered) emitted_.begin();
     for (const SceneChunk& chunk : chunks) {
         draw.materials.bindVertices(chunk);
         for (const ChunkRange& range : chunk.ranges) {
@@ -52,6 +59,15 @@ void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) 
             runs_.draw(draw.materials.programs);
         }
     }
+    if (isLayered) emitted_.end();
+}
+
+FrameOutcome PlainDraw::finishFrame() {
+    if (sides_.size() > 1) {
+        drawn_.pairCount = 0;
+        for (const uint64_t count : emitted_.take()) drawn_.pairCount += count;
+    }
+    return drawn_;
 }
 
 }  // namespace curvewall

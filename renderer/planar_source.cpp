@@ -2,6 +2,7 @@
 
 #include "calibration/errors.h"
 #include "renderer/request_limits.h"
+#include "renderer/source_axes.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,48 +30,6 @@ struct Framing {
     double texels() const { return extent().x * extent().y / (step * step); }
 };
 
-std::vector<glm::ivec2> latticeOf(glm::ivec2 sizePx, glm::ivec2 counts) {
-    counts = glm::min(counts, sizePx);
-    std::vector<glm::ivec2> pixels;
-    for (int row = 0; row < counts.y; ++row)
-        for (int column = 0; column < counts.x; ++column)
-            pixels.push_back(glm::ivec2(column, row) * (sizePx - 1) / glm::max(counts - 1, 1));
-    return pixels;
-}
-
-std::vector<glm::dvec3> directionsOf(const PixelRays& rays, const std::vector<glm::ivec2>& pixels) {
-    std::vector<glm::dvec3> directions;
-    for (const glm::ivec2 px : pixels)
-        if (const glm::dvec3 ray = rays.at(px); PixelRays::isRay(ray))
-            directions.push_back(glm::normalize(ray));
-    return directions;
-}
-
-// The axis of the narrowest cone around the directions, by steps towards the farthest (Badoiu and Clarkson,
-// Smaller core-sets for balls, 2003).
-glm::dvec3 axisOf(const std::vector<glm::dvec3>& directions) {
-    constexpr int kSteps = 2000;
-    glm::dvec3 axis = directions.front();
-    for (int step = 1; step <= kSteps; ++step) {
-        const auto farthest = std::ranges::min_element(
-            directions, {}, [&](const glm::dvec3& direction) { return glm::dot(axis, direction); });
-        axis += (*farthest - axis) / (step + 1.0);
-    }
-    return axis;
-}
-
-FaceAxes axesAround(glm::dvec3 ahead, glm::dvec3 right) {
-    FaceAxes axes{{}, {}, glm::normalize(ahead)};
-    axes.right = glm::normalize(right - glm::dot(right, axes.ahead) * axes.ahead);
-    axes.down = glm::cross(axes.ahead, axes.right);
-    return axes;
-}
-
-// Some direction that is not along the other.
-glm::dvec3 aside(glm::dvec3 direction) {
-    return std::abs(direction.x) < 0.7 * glm::length(direction) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-}
-
 // Nothing where a ray is too far from the axis.
 std::optional<Framing> framingOf(const PixelRays& rays, const std::vector<glm::ivec2>& pixels,
                                  const FaceAxes& axes) {
@@ -93,24 +52,12 @@ std::optional<Framing> framingOf(const PixelRays& rays, const std::vector<glm::i
     return framing;
 }
 
-FaceAxes turned(const FaceAxes& axes, int around, double angleRad) {
-    const double c = std::cos(angleRad), s = std::sin(angleRad);
-    switch (around) {
-        case 0:
-            return axesAround(c * axes.ahead + s * axes.right, c * axes.right - s * axes.ahead);
-        case 1:
-            return axesAround(c * axes.ahead + s * axes.down, axes.right);
-        default:
-            return axesAround(axes.ahead, c * axes.right + s * axes.down);
-    }
-}
-
 // Turns the axes for as long as that saves texels.
 Framing withFewestTexels(const PixelRays& rays, const std::vector<glm::ivec2>& pixels, Framing best) {
     constexpr double kFirstTurnRad = 0.2, kLastTurnRad = 1e-4;
     for (double angleRad = kFirstTurnRad; angleRad > kLastTurnRad;) {
         bool better = false;
-        for (int around = 0; around < 3; ++around) {
+        for (const TurnAround around : {TurnAround::down, TurnAround::right, TurnAround::ahead}) {
             for (const double turn : {angleRad, -angleRad}) {
                 const auto tried = framingOf(rays, pixels, turned(best.axes, around, turn));
                 if (!tried || tried->texels() >= best.texels()) continue;

@@ -4,11 +4,13 @@
 #include "calibration/wall.h"
 #include "renderer/camera.h"
 #include "renderer/engine.h"
+#include "renderer/face_pass.h"
 #include "renderer/frame.h"
 #include "renderer/image_source.h"
 #include "renderer/look.h"
 #include "renderer/request_limits.h"
 #include "renderer/scene/scene.h"
+#include "renderer/source_lookup.h"
 #include "renderer/stats.h"
 
 #include <memory>
@@ -37,10 +39,13 @@ struct RenderRequest {
     double tolerancePx = kDefaultTolerancePx;  // piecewise
     // Of this display, seen from this eye, at this tolerance; without them the render fits them.
     std::shared_ptr<const FittedPieces> pieces{};
-    SourceKind source = SourceKind::cube;        // image-based, as are the next two
+    SourceKind source = SourceKind::cube;        // image-based, as are the next five
     int faceSizePx = 0;                          // 0: from the display's peak pixel density
     SourceFilter filter = SourceFilter::linear;  // of colour; other outputs take the nearest texel
-    int samples = 1;                             // reference: rays per pixel; raster methods: MSAA samples
+    FacePass facePass = FacePass::separate;
+    SourceLookup lookup = SourceLookup::pixel;
+    int meshStepPx = kDefaultMeshStepPx;  // of SourceLookup::mesh
+    int samples = 1;                      // reference: rays per pixel; raster methods: MSAA samples
     // Of textures, raster methods: 1 to kMostAnisotropy. Without one what the GL at hand does well: as much
     // as it can on hardware, 1 on a software renderer.
     std::optional<int> anisotropy{};

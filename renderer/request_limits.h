@@ -9,6 +9,9 @@ inline constexpr double kMostTolerancePx = 100;
 inline constexpr int kLeastFacePx = 16;
 inline constexpr int kMostFacePx = 8192;
 inline constexpr int kMostAutomaticFacePx = 4096;  // six of them are 400 MB
+inline constexpr int kDefaultMeshStepPx = 16;
+inline constexpr int kLeastMeshStepPx = 4;
+inline constexpr int kMostMeshStepPx = 256;
 inline constexpr int kMostSamples = 4096;
 inline constexpr int kMostAnisotropy = 16;
 

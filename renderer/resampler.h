@@ -1,9 +1,13 @@
 #pragma once
-// The second step of the image-based method: every pixel looks its exact ray up in the pictures of a source.
+// The second step of the image-based method: every pixel is looked up in the pictures of a source.
 
 #include "renderer/frame_target.h"
 #include "renderer/gl/program.h"
 #include "renderer/image_source.h"
+#include "renderer/lookup_mesh.h"
+#include "renderer/source_lookup.h"
+
+#include <vector>
 
 namespace curvewall {
 
@@ -12,21 +16,31 @@ inline SourceFilter filterFor(OutputKind output, SourceFilter asked) {
     return output == OutputKind::color ? asked : SourceFilter::nearest;
 }
 
+// One or the other.
+struct GpuLookup {
+    GlTexture places, gradients;  // of all pixels; gradients only for what uses levels
+    GlBuffer cells;               // of the mesh
+    GLsizei cellCount = 0;
+};
+
+// `places` and `gradients` as sourcePlaces and sourceGradients give them; the latter may be empty.
+GpuLookup uploadLookup(const std::vector<glm::vec4>& places, const std::vector<glm::vec4>& gradients,
+                       glm::ivec2 sizePx);
+GpuLookup uploadLookup(const std::vector<LookupCell>& mesh);
+
 class Resampler {
 public:
-    explicit Resampler(SourceFilter filter);
+    Resampler(SourceFilter filter, SourceLookup lookup);
 
-    // Draws all of `target`. `pictures` is a texture with layers; `places` as uploadPlaces made it.
-    void record(const GlTexture& pictures, const GlTexture& places, const FrameTarget& target,
+    // Draws all of `target`. `pictures` is a texture with layers, and levels where the filter uses them.
+    void record(const GlTexture& pictures, const GpuLookup& lookup, const FrameTarget& target,
                 glm::vec3 background) const;
 
 private:
+    SourceLookup lookup_;
     GlProgram program_;
     GlSampler sampler_;
     GlVertexArray emptyVertexArray_;
 };
-
-// `places` as sourcePlaces gives them.
-GlTexture uploadPlaces(const std::vector<glm::vec4>& places, glm::ivec2 sizePx);
 
 }  // namespace curvewall

@@ -25,6 +25,11 @@ std::string outputDefine(OutputKind output) {
 }
 
 GlProgram sceneProgram(CornerSource source, const std::vector<std::string>& defines) {
+    if (source == CornerSource::layered)
+        return makeProgram({{GL_VERTEX_SHADER, "scene.vert"},
+                            {GL_GEOMETRY_SHADER, "layered.geom"},
+                            {GL_FRAGMENT_SHADER, "scene.frag"}},
+                           defines);
     if (source != CornerSource::tessellated)
         return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
     return makeProgram({{GL_VERTEX_SHADER, "replicate.vert"},
@@ -51,8 +56,12 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(pairs, "PAIRS");
         if (pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.source == CornerSource::loop, "LOOP");
+        const bool layered = path.source == CornerSource::layered;
+        defineIf(layered, "LAYERED");
+        if (layered) defines.push_back("LAYERS " + std::to_string(path.layers));
         const bool tessellated = path.source == CornerSource::tessellated;
-        const bool owned = path.singleCover || (variant.blended && path.source != CornerSource::plain);
+        const bool onePiece = path.source == CornerSource::plain || layered;
+        const bool owned = path.singleCover || (variant.blended && !onePiece);
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
         defineIf(variant.blended, "BLENDED");

@@ -29,6 +29,7 @@ enum class CornerSource {
     loop,         // plain vertices, the piece is a uniform
     pairs,        // pulled by (triangle, piece) pairs
     tessellated,  // triangles by number, replicated on their way
+    layered,      // plain vertices, each triangle into several pictures of one piece each
 };
 
 struct GeometryPath {
@@ -37,6 +38,7 @@ struct GeometryPath {
     bool singleCover = false;  // each pixel is its owner's alone; blended materials have that anyway
     int ownerSamples = 1;      // owners that a pixel has in one pass
     bool closesHoles = false;  // pixels without an owner are closed before anything is drawn
+    int layers = 0;            // pictures that are drawn at once, where they are layered
 
     bool operator==(const GeometryPath&) const = default;
 };

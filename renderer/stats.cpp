@@ -17,15 +17,20 @@ nlohmann::json toJson(const ChoiceStats& choice) {
 
 }  // namespace
 
+namespace {
+
+nlohmann::json toJson(const GeometricError& error) {
+    return {{"max", error.maxPx}, {"p99", error.p99Px}, {"mean", error.meanPx}};
+}
+
+}  // namespace
+
 nlohmann::json toJson(const RenderStats& stats) {
     nlohmann::json json = {
         {"method", stats.method},
         {"engine", stats.engine},
         {"tolerance_px", stats.tolerancePx},
-        {"geometric_error_px",
-         {{"max", stats.geometricError.maxPx},
-          {"p99", stats.geometricError.p99Px},
-          {"mean", stats.geometricError.meanPx}}},
+        {"geometric_error_px", toJson(stats.geometricError)},
         {"pieces", stats.pieces},
         {"face_size_px", stats.faceSizePx},
         {"faces", stats.faces},
@@ -50,6 +55,14 @@ nlohmann::json toJson(const RenderStats& stats) {
     if (stats.method == "image-based") {
         json["source"] = stats.source;
         json["filter"] = stats.filter;
+        json["face_pass"] = stats.facePass;
+        json["lookup"] = stats.lookup;
+        json["source_texels"] = stats.sourceTexels;
+        json["levels"] = stats.levels;
+        if (stats.meshStepPx > 0) {
+            json["mesh_step_px"] = stats.meshStepPx;
+            json["lookup_error_px"] = toJson(stats.lookupError);
+        }
     }
     if (stats.choice) json["auto"] = toJson(*stats.choice);
     return json;

@@ -42,9 +42,13 @@ struct RenderStats {
     int pieces = 0;
     int certificateEvery = 1;         // piecewise: the error is over every so many-th row and column
     double fullCertificateAgeMs = 0;  // piecewise: since the display was last certified at every pixel
-    std::string source, filter;       // image-based, as are the next two
+    std::string source, filter, facePass, lookup;  // image-based, as are the next seven
     int faceSizePx = 0;
     int faces = 0;                        // cube faces that the display sees, or the one planar picture
+    uint64_t sourceTexels = 0;            // of all faces
+    int levels = 0;                       // of halved faces
+    int meshStepPx = 0;                   // where the lookup is a mesh, as is the next
+    GeometricError lookupError;           // of the places alone
     uint64_t triangles = 0;               // in the scene
     uint64_t pairs = 0;                   // (triangle, piece) pairs drawn in frame 0
     uint64_t meshlets = 0;                // of the scene's surfaces

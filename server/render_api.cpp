@@ -83,6 +83,10 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
     request.tolerancePx = fields.number("tolerance_px", kTolerancePx).value_or(request.tolerancePx);
     readName(fields, "source", sourceFromName, sourceNames, request.source);
     readName(fields, "filter", filterFromName, filterNames, request.filter);
+    readName(fields, "faces", facePassFromName, facePassNames, request.facePass);
+    readName(fields, "lookup", lookupFromName, lookupNames, request.lookup);
+    if (const auto step = fields.wholeNumber("mesh_step_px", kLeastMeshStepPx, kMostMeshStepPx))
+        request.meshStepPx = static_cast<int>(*step);
     if (const auto size = fields.wholeNumber("face_size", 0, kMostFacePx)) {
         if (*size != 0 && *size < kLeastFacePx)
             throw impossible("face_size", "0 or at least " + std::to_string(kLeastFacePx),
@@ -102,10 +106,10 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
 // Texels of the image-based method's pictures, at most: which size the display asks for is not known before
 // its rays are.
 uint64_t mostTexels(const RenderRequest& request) {
-    const bool isCube = request.source == SourceKind::cube;
-    const int automaticPx = isCube ? kMostAutomaticFacePx : kMostFacePx;
+    const bool isPlanar = request.source == SourceKind::planar;
+    const int automaticPx = isPlanar ? kMostFacePx : kMostAutomaticFacePx;
     const auto sidePx = static_cast<uint64_t>(request.faceSizePx > 0 ? request.faceSizePx : automaticPx);
-    const uint64_t faces = isCube ? 6 : 1;
+    const uint64_t faces = isPlanar ? 1 : request.source == SourceKind::hemicube ? 5 : 6;
     return faces * sidePx * sidePx;
 }
 

@@ -1,5 +1,6 @@
 // A triangle's corner as scene.frag reads it, and where it lands on the screen of one piece: H r, with w = 1 on the facet.
-// The includer declares pieceRows: three rows of H to clip space, then planes, a piece.
+// The includer declares pieceRows: three rows of H to clip space, then planes, a piece. Where pictures are LAYERED the corner
+// lands in the stage that chooses them.
 
 layout(location = 14) uniform vec2 shift;         // of the whole picture, clip space, for one sample of several
 layout(location = 9) uniform float nearFraction;  // depth = nearFraction / w, reversed
@@ -21,6 +22,7 @@ out float gl_ClipDistance[CLIP_PLANES];
 
 // Puts `ray` on the screen of a piece.
 void land(uint piece) {
+#if !defined(LAYERED) || defined(LANDS_HERE)
     uint row = piece * uint(3 + CLIP_PLANES);
     gl_Position = vec4(dot(pieceRows[row].xyz, ray), dot(pieceRows[row + 1u].xyz, ray), nearFraction,
                        dot(pieceRows[row + 2u].xyz, ray));
@@ -30,6 +32,7 @@ void land(uint piece) {
 #endif
 #ifdef OWNED
     ownPiece = int(piece);
+#endif
 #endif
 }
 

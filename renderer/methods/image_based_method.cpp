@@ -5,24 +5,33 @@
 #include "renderer/names.h"
 
 namespace curvewall {
+namespace {
+
+SourceSettings settingsOf(const RenderRequest& request, SourceFilter filter) {
+    return {request.source,     request.faceSizePx,
+            usesLevels(filter), request.facePass,
+            request.lookup,     request.lookup == SourceLookup::mesh ? request.meshStepPx : 0};
+}
+
+}  // namespace
 
 RenderResult ImageBasedMethod::render(const RenderRequest& request, const Display& display) {
     RenderResult result;
     RenderStats& stats = result.stats;
     const Stopwatch preparing;
     const auto scene = resources_.sceneFor(request);
-    const auto source = images_.source(request.wall, display, request.source, request.faceSizePx);
+    const SourceFilter filter = filterFor(request.output, request.filter);
+    const auto source = images_.source(request.wall, display, settingsOf(request, filter));
     const auto renderer = scene->images.get({source, request.style, request.output}, [&] {
-        const GeometryPath onePiece;
         return std::make_shared<ImageBasedRenderer>(
-            programsFor(*scene, {request.style, request.output}, onePiece), scene->gpu, source->gpu);
+            programsFor(*scene, {request.style, request.output}, pathThrough(source->gpu)), scene->gpu,
+            source->gpu);
     });
     const auto keptBlended = resources_.blendedTarget(request, display);
     const BlendedTarget& blended = *keptBlended;
     const TargetFormat format = blended.pictureFormat();
     const auto pictures = images_.pictures(source->gpu, format, samplesFor(request));
-    const SourceFilter filter = filterFor(request.output, request.filter);
-    const auto resampler = images_.resampler(filter);
+    const auto resampler = images_.resampler(filter, request.lookup);
     const auto keptTarget = resources_.frameTarget(display.sizePx, format);
     const FrameTarget& target = *keptTarget;
     renderer->timeStages(request.timesStages);
@@ -50,8 +59,14 @@ RenderResult ImageBasedMethod::render(const RenderRequest& request, const Displa
     stats.source = nameOf(request.source);
     stats.filter = nameOf(filter);
     stats.geometricError = errorOf(source->error);
+    stats.facePass = nameOf(request.facePass);
+    stats.lookup = nameOf(request.lookup);
+    stats.lookupError = errorOf(source->lookupError);
+    if (request.lookup == SourceLookup::mesh) stats.meshStepPx = request.meshStepPx;
     stats.faceSizePx = source->gpu.faceSizePx;
-    stats.faces = static_cast<int>(source->gpu.faces.size());
+    stats.faces = static_cast<int>(source->gpu.layout.sizesPx.size());
+    stats.sourceTexels = source->gpu.texelCount;
+    stats.levels = source->gpu.layout.levels;
     return result;
 }
 
