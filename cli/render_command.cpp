@@ -26,7 +26,7 @@ namespace {
 
 struct RenderCommand {
     WallOption wall;
-    std::string display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube",
+    std::string display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube", bounds = "triangle",
                                              filter = "linear", style = "textured", outputKind = "color", out,
                                              stats;
     double tolerancePx = kDefaultTolerancePx;
@@ -46,6 +46,7 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.source = sourceFromName(command.source).value();
     request.filter = filterFromName(command.filter).value();
     request.faceSizePx = command.faceSizePx;
+    request.bounds = boundsFromName(command.bounds).value();
     request.frames = command.frames;
     request.timesStages = request.measuresError = !command.stats.empty();
     if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
@@ -72,6 +73,7 @@ std::string summaryOf(const RenderStats& stats) {
         return fmt::format("{} {} of {} px, error {:.4f} px at most", stats.faces,
                            stats.faces == 1 ? "picture" : "pictures", stats.faceSizePx,
                            stats.geometricError.maxPx);
+    if (!stats.bounds.empty()) return fmt::format("bounded by a {}", stats.bounds);
     return fmt::format("{} rays a pixel", stats.samples);
 }
 
@@ -149,6 +151,10 @@ void addRenderCommand(CLI::App& app) {
                      "Side of a cube face or longer side of the planar source, pixels; 0: from the display's "
                      "densest place")
         ->check(CLI::Validator(checkFaceSize, ""))
+        ->capture_default_str();
+    render
+        ->add_option("--bounds", command->bounds, "What bounded-raycast draws around triangles: " + boundsNames())
+        ->check(oneOf(boundsFromName, boundsNames()))
         ->capture_default_str();
     render->add_option("--style", command->style, styleNames())
         ->check(oneOf(styleFromName, styleNames()))

@@ -13,7 +13,7 @@ struct Named {
 };
 
 constexpr Named<Method> kMethods[] = {
-    {Method::piecewise, "piecewise"}, {Method::imageBased, "image-based"}, {Method::reference, "reference"}};
+    {Method::piecewise, "piecewise"}, {Method::imageBased, "image-based"}, {Method::boundedRaycast, "bounded-raycast"}, {Method::reference, "reference"}};
 constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
                                       {Engine::geometry, "geometry"},
                                       {Engine::tessellation, "tessellation"},
@@ -21,6 +21,8 @@ constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
 constexpr Named<SourceKind> kSources[] = {{SourceKind::cube, "cube"}, {SourceKind::planar, "planar"}};
 constexpr Named<SourceFilter> kFilters[] = {
     {SourceFilter::nearest, "nearest"}, {SourceFilter::linear, "linear"}, {SourceFilter::bicubic, "bicubic"}};
+constexpr Named<BoundingShape> kBoundingShapes[] = {{BoundingShape::triangle, "triangle"},
+                                                    {BoundingShape::quad, "quad"}};
 constexpr Named<Style> kStyles[] = {{Style::textured, "textured"},
                                     {Style::unlit, "unlit"},
                                     {Style::wireframe, "wireframe"},
@@ -63,6 +65,7 @@ std::optional<Method> methodFromName(std::string_view name) { return fromName(kM
 std::optional<Engine> engineFromName(std::string_view name) { return fromName(kEngines, name); }
 std::optional<SourceKind> sourceFromName(std::string_view name) { return fromName(kSources, name); }
 std::optional<SourceFilter> filterFromName(std::string_view name) { return fromName(kFilters, name); }
+std::optional<BoundingShape> boundsFromName(std::string_view name) { return fromName(kBoundingShapes, name); }
 std::optional<Style> styleFromName(std::string_view name) { return fromName(kStyles, name); }
 std::optional<OutputKind> outputKindFromName(std::string_view name) { return fromName(kOutputKinds, name); }
 std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
@@ -73,6 +76,7 @@ std::string_view nameOf(Method method) { return toName(kMethods, method); }
 std::string_view nameOf(Engine engine) { return toName(kEngines, engine); }
 std::string_view nameOf(SourceKind source) { return toName(kSources, source); }
 std::string_view nameOf(SourceFilter filter) { return toName(kFilters, filter); }
+std::string_view nameOf(BoundingShape bounds) { return toName(kBoundingShapes, bounds); }
 std::string_view nameOf(Style style) { return toName(kStyles, style); }
 std::string_view nameOf(OutputKind output) { return toName(kOutputKinds, output); }
 std::string_view nameOf(ImageFormat format) { return toName(kImageFormats, format); }
@@ -81,6 +85,7 @@ std::string methodNames() { return allNames(kMethods); }
 std::string engineNames() { return allNames(kEngines); }
 std::string sourceNames() { return allNames(kSources); }
 std::string filterNames() { return allNames(kFilters); }
+std::string boundsNames() { return allNames(kBoundingShapes); }
 std::string styleNames() { return allNames(kStyles); }
 std::string outputKindNames() { return allNames(kOutputKinds); }
 std::string imageFormatNames() { return allNames(kImageFormats); }

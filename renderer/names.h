@@ -1,6 +1,6 @@
 #pragma once
-// The words that the command line and the network use for methods, engines, sources, filters, styles, outputs
-// and image formats.
+// The words that the command line and the network use for methods, engines, sources, filters, bounding
+// shapes, styles, outputs and image formats.
 
 #include "renderer/image_file.h"
 #include "renderer/look.h"
@@ -17,6 +17,7 @@ std::optional<Method> methodFromName(std::string_view name);
 std::optional<Engine> engineFromName(std::string_view name);
 std::optional<SourceKind> sourceFromName(std::string_view name);
 std::optional<SourceFilter> filterFromName(std::string_view name);
+std::optional<BoundingShape> boundsFromName(std::string_view name);
 std::optional<Style> styleFromName(std::string_view name);
 std::optional<OutputKind> outputKindFromName(std::string_view name);
 std::optional<ImageFormat> imageFormatFromName(std::string_view name);
@@ -25,6 +26,7 @@ std::string_view nameOf(Method method);
 std::string_view nameOf(Engine engine);
 std::string_view nameOf(SourceKind source);
 std::string_view nameOf(SourceFilter filter);
+std::string_view nameOf(BoundingShape bounds);
 std::string_view nameOf(Style style);
 std::string_view nameOf(OutputKind output);
 std::string_view nameOf(ImageFormat format);
@@ -34,6 +36,7 @@ std::string methodNames();
 std::string engineNames();
 std::string sourceNames();
 std::string filterNames();
+std::string boundsNames();
 std::string styleNames();
 std::string outputKindNames();
 std::string imageFormatNames();

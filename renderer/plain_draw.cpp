@@ -1,44 +1,26 @@
 #include "renderer/plain_draw.h"
 
-#include "renderer/meshlets.h"
-
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
+
 namespace curvewall {
-PlainDraw::PlainDraw(const GpuPieces& pieces) {
+namespace {
+
+VisibleRuns::SphereTest inPicture(const GpuPieces& pieces) {
     // Clip space is |x| <= w and |y| <= w, and each of these is a plane through the eye.
     const auto& [x, y, w] = pieces.firstRows;
-    sides_ = {w + x, w - x, w + y, w - y};
-    for (glm::vec3& side : sides_) side = glm::normalize(side);
+    std::array<glm::vec3, 4> sides{w + x, w - x, w + y, w - y};
+    for (glm::vec3& side : sides) side = glm::normalize(side);
+    return [sides](glm::vec3 centre, float radius) {
+        return std::ranges::all_of(sides, [&](glm::vec3 side) { return glm::dot(side, centre) >= -radius; });
+    };
 }
 
-void PlainDraw::findRuns(const SceneChunk& chunk, const ChunkRange& range, const SceneView& view) {
-    runs_.clear();
-    if (chunk.changes) {
-        add(range.firstTriangle, range.triangleCount);
-        return;
-    }
-    for (uint32_t i = range.firstMeshlet; i < range.firstMeshlet + range.meshletCount; ++i) {
-        const Meshlet& meshlet = chunk.meshletBounds[i];
-        if (!isSeen(meshlet, range.isSingleSided, view)) continue;
-        add(meshlet.firstTriangle, meshlet.triangleCount);
-        ++drawn_.meshletCount;
-    }
-}
+}  // namespace
 
-bool PlainDraw::isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneView& view) const {
-    const glm::vec3 toCentre = view.wallFromScene * (meshlet.centreM + view.originFromEyeM);
-    // What the subtraction of the eye rounds off is a share of the distance.
-    const float radius = meshlet.radiusM + 1e-6f * glm::length(toCentre);
-    for (const glm::vec3& side : sides_)
-        if (glm::dot(side, toCentre) < -radius) return false;
-    return !(isSingleSided && isBehind(meshlet, -view.originFromEyeM));
-}
-
-void PlainDraw::add(uint32_t firstTriangle, uint32_t triangleCount) {
-    runs_.add(firstTriangle, triangleCount);
-    drawn_.pairCount += triangleCount;
-}
+PlainDraw::PlainDraw(const GpuPieces& pieces) : runs_(inPicture(pieces)) {}
 
 void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) {
     draw.timer.begin("surfaces");
@@ -46,10 +28,10 @@ void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) 
     for (const SceneChunk& chunk : chunks) {
         draw.materials.bindVertices(chunk);
         for (const ChunkRange& range : chunk.ranges) {
-            findRuns(chunk, range, draw.view);
-            if (runs_.isEmpty()) continue;
+            const TriangleRuns& runs = runs_.find(chunk, range, draw.view);
+            if (runs.isEmpty()) continue;
             draw.materials.bind(range.material);
-            runs_.draw(draw.materials.programs);
+            runs.draw(draw.materials.programs);
         }
     }
 }

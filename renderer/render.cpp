@@ -1,6 +1,7 @@
 #include "renderer/render.h"
 
 #include "renderer/gl/egl_context.h"
+#include "renderer/methods/bounded_raycast_method.h"
 #include "renderer/methods/image_based_method.h"
 #include "renderer/methods/piecewise_method.h"
 #include "renderer/methods/reference_method.h"
@@ -35,6 +36,7 @@ struct Renderer::Impl {
     RasterResources resources;
     PiecewiseMethod piecewise{resources};
     ImageBasedMethod imageBased{resources};
+    BoundedRaycastMethod boundedRaycast{resources};
     ReferenceMethod reference;
 };
 
@@ -60,6 +62,9 @@ RenderResult Renderer::render(const RenderRequest& asked) {
             break;
         case Method::imageBased:
             result = impl_->imageBased.render(request, display);
+            break;
+        case Method::boundedRaycast:
+            result = impl_->boundedRaycast.render(request, display);
             break;
         case Method::reference:
             result = impl_->reference.render(request, display);

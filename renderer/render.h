@@ -2,6 +2,7 @@
 // One render, whoever asks for it: the command line and the daemon both come through here.
 
 #include "calibration/wall.h"
+#include "renderer/bounding_shape.h"
 #include "renderer/camera.h"
 #include "renderer/engine.h"
 #include "renderer/frame.h"
@@ -19,7 +20,7 @@ namespace curvewall {
 
 struct FittedPieces;
 
-enum class Method { piecewise, imageBased, reference };
+enum class Method { piecewise, imageBased, boundedRaycast, reference };
 
 struct RenderRequest {
     WallPtr wall;
@@ -35,6 +36,7 @@ struct RenderRequest {
     SourceKind source = SourceKind::cube;        // image-based, as are the next two
     int faceSizePx = 0;                          // 0: from the display's peak pixel density
     SourceFilter filter = SourceFilter::linear;  // of colour; other outputs take the nearest texel
+    BoundingShape bounds = BoundingShape::triangle;  // bounded-raycast
     int samples = 1;                             // reference: rays per pixel; raster methods: MSAA samples
     // Of textures, raster methods: 1 to kMostAnisotropy. Without one what the GL at hand does well: as much
     // as it can on hardware, 1 on a software renderer.

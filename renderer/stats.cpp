@@ -38,6 +38,12 @@ nlohmann::json toJson(const RenderStats& stats) {
         json["source"] = stats.source;
         json["filter"] = stats.filter;
     }
+    if (stats.method == "bounded-raycast") {
+        json["bounds"] = stats.bounds;
+        json["covered_fragments"] = stats.coveredFragments;
+        json["rendered_fragments"] = stats.renderedFragments;
+        json["overdraw"] = stats.overdraw();
+    }
     return json;
 }
 

@@ -31,6 +31,9 @@ struct RenderStats {
     std::string source, filter;       // image-based, as are the next two
     int faceSizePx = 0;
     int faces = 0;                        // cube faces that the display sees, or the one planar picture
+    std::string bounds;                   // bounded-raycast, as are the next two, of frame 0
+    uint64_t coveredFragments = 0;        // of bounding shapes
+    uint64_t renderedFragments = 0;       // of those, where a ray meets the triangle
     uint64_t triangles = 0;               // in the scene
     uint64_t pairs = 0;                   // (triangle, piece) pairs drawn in frame 0
     uint64_t meshlets = 0;                // of the scene's surfaces
@@ -47,6 +50,12 @@ struct RenderStats {
     double peakMemoryMib = 0;
     double sceneMemoryMib = 0;  // of the GPU, for the scene with its textures
     double pairsMemoryMib = 0;  // and for what finds its pairs
+
+    double overdraw() const {
+        return renderedFragments == 0
+                   ? 0
+                   : static_cast<double>(coveredFragments) / static_cast<double>(renderedFragments) - 1;
+    }
 
     double replicationRatio() const {
         return triangles == 0 ? 0 : static_cast<double>(pairs) / static_cast<double>(triangles);
