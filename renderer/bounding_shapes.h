@@ -5,6 +5,8 @@
 
 namespace curvewall::maths {
 
+using glm::clamp, glm::pow;
+
 #define SHARED_FN inline
 #include "shaders/bounding_shapes.glsl"
 #undef SHARED_FN
