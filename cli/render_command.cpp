@@ -26,9 +26,9 @@ namespace {
 
 struct RenderCommand {
     WallOption wall;
-    std::string display, scene, camera, eye, method = "piecewise", engine = "compute", source = "cube",
-                                             filter = "linear", faces = "separate", lookup = "pixel",
-                                             style = "textured", outputKind = "color", out, stats;
+    std::string display, scene, camera, eye,
+        method = "piecewise", engine = "compute", source = "cube", filter = "linear", faces = "separate",
+        lookup = "pixel", bounds = "triangle", style = "textured", outputKind = "color", out, stats;
     double tolerancePx = kDefaultTolerancePx;
     int samples = 1, faceSizePx = 0, meshStepPx = kDefaultMeshStepPx, frames = 1;
     std::optional<int> anisotropy;
@@ -49,6 +49,7 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.facePass = facePassFromName(command.faces).value();
     request.lookup = lookupFromName(command.lookup).value();
     request.meshStepPx = command.meshStepPx;
+    request.bounds = boundsFromName(command.bounds).value();
     request.frames = command.frames;
     request.timesStages = request.measuresError = !command.stats.empty();
     if (!command.camera.empty()) request.camera = cameraFromText(command.camera);
@@ -75,6 +76,7 @@ std::string summaryOf(const RenderStats& stats) {
         return fmt::format("{} {} of {} px, error {:.4f} px at most", stats.faces,
                            stats.faces == 1 ? "picture" : "pictures", stats.faceSizePx,
                            stats.geometricError.maxPx);
+    if (!stats.bounds.empty()) return fmt::format("bounded by a {}", stats.bounds);
     return fmt::format("{} rays a pixel", stats.samples);
 }
 
@@ -162,6 +164,11 @@ void addRenderCommand(CLI::App& app) {
                      "Side of a cube face or longer side of the planar source, pixels; 0: from the display's "
                      "densest place")
         ->check(CLI::Validator(checkFaceSize, ""))
+        ->capture_default_str();
+    render
+        ->add_option("--bounds", command->bounds,
+                     "What bounded-raycast draws around triangles: " + boundsNames())
+        ->check(oneOf(boundsFromName, boundsNames()))
         ->capture_default_str();
     render->add_option("--style", command->style, styleNames())
         ->check(oneOf(styleFromName, styleNames()))

@@ -1,7 +1,7 @@
 #include "renderer/method_choice.h"
 
 #include "calibration/pieces/piece_fit.h"
-#include "renderer/image_source.h"
+#include "renderer/cube_source.h"
 #include "renderer/names.h"
 #include "renderer/request_limits.h"
 #include "renderer/scene_facts.h"

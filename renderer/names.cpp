@@ -14,6 +14,7 @@ struct Named {
 
 constexpr Named<Method> kMethods[] = {{Method::piecewise, "piecewise"},
                                       {Method::imageBased, "image-based"},
+                                      {Method::boundedRaycast, "bounded-raycast"},
                                       {Method::reference, "reference"},
                                       {Method::automatic, "auto"}};
 constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
@@ -29,6 +30,8 @@ constexpr Named<SourceFilter> kFilters[] = {{SourceFilter::nearest, "nearest"},
                                             {SourceFilter::anisotropic, "anisotropic"}};
 constexpr Named<FacePass> kFacePasses[] = {{FacePass::separate, "separate"}, {FacePass::layered, "layered"}};
 constexpr Named<SourceLookup> kLookups[] = {{SourceLookup::pixel, "pixel"}, {SourceLookup::mesh, "mesh"}};
+constexpr Named<BoundingShape> kBoundingShapes[] = {{BoundingShape::triangle, "triangle"},
+                                                    {BoundingShape::quad, "quad"}};
 constexpr Named<Style> kStyles[] = {{Style::textured, "textured"},
                                     {Style::unlit, "unlit"},
                                     {Style::wireframe, "wireframe"},
@@ -73,6 +76,7 @@ std::optional<SourceKind> sourceFromName(std::string_view name) { return fromNam
 std::optional<SourceFilter> filterFromName(std::string_view name) { return fromName(kFilters, name); }
 std::optional<FacePass> facePassFromName(std::string_view name) { return fromName(kFacePasses, name); }
 std::optional<SourceLookup> lookupFromName(std::string_view name) { return fromName(kLookups, name); }
+std::optional<BoundingShape> boundsFromName(std::string_view name) { return fromName(kBoundingShapes, name); }
 std::optional<Style> styleFromName(std::string_view name) { return fromName(kStyles, name); }
 std::optional<OutputKind> outputKindFromName(std::string_view name) { return fromName(kOutputKinds, name); }
 std::optional<ImageFormat> imageFormatFromName(std::string_view name) {
@@ -85,6 +89,7 @@ std::string_view nameOf(SourceKind source) { return toName(kSources, source); }
 std::string_view nameOf(SourceFilter filter) { return toName(kFilters, filter); }
 std::string_view nameOf(FacePass pass) { return toName(kFacePasses, pass); }
 std::string_view nameOf(SourceLookup lookup) { return toName(kLookups, lookup); }
+std::string_view nameOf(BoundingShape bounds) { return toName(kBoundingShapes, bounds); }
 std::string_view nameOf(Style style) { return toName(kStyles, style); }
 std::string_view nameOf(OutputKind output) { return toName(kOutputKinds, output); }
 std::string_view nameOf(ImageFormat format) { return toName(kImageFormats, format); }
@@ -95,6 +100,7 @@ std::string sourceNames() { return allNames(kSources); }
 std::string filterNames() { return allNames(kFilters); }
 std::string facePassNames() { return allNames(kFacePasses); }
 std::string lookupNames() { return allNames(kLookups); }
+std::string boundsNames() { return allNames(kBoundingShapes); }
 std::string styleNames() { return allNames(kStyles); }
 std::string outputKindNames() { return allNames(kOutputKinds); }
 std::string imageFormatNames() { return allNames(kImageFormats); }

@@ -1,6 +1,6 @@
 #pragma once
 // The words that the command line and the network use for methods, engines, sources and how they are
-// drawn, looked up and filtered, styles, outputs and image formats.
+// drawn, looked up and filtered, bounding shapes, styles, outputs and image formats.
 
 #include "renderer/image_file.h"
 #include "renderer/look.h"
@@ -19,6 +19,7 @@ std::optional<SourceKind> sourceFromName(std::string_view name);
 std::optional<SourceFilter> filterFromName(std::string_view name);
 std::optional<FacePass> facePassFromName(std::string_view name);
 std::optional<SourceLookup> lookupFromName(std::string_view name);
+std::optional<BoundingShape> boundsFromName(std::string_view name);
 std::optional<Style> styleFromName(std::string_view name);
 std::optional<OutputKind> outputKindFromName(std::string_view name);
 std::optional<ImageFormat> imageFormatFromName(std::string_view name);
@@ -29,6 +30,7 @@ std::string_view nameOf(SourceKind source);
 std::string_view nameOf(SourceFilter filter);
 std::string_view nameOf(FacePass pass);
 std::string_view nameOf(SourceLookup lookup);
+std::string_view nameOf(BoundingShape bounds);
 std::string_view nameOf(Style style);
 std::string_view nameOf(OutputKind output);
 std::string_view nameOf(ImageFormat format);
@@ -40,6 +42,7 @@ std::string sourceNames();
 std::string filterNames();
 std::string facePassNames();
 std::string lookupNames();
+std::string boundsNames();
 std::string styleNames();
 std::string outputKindNames();
 std::string imageFormatNames();

@@ -22,11 +22,6 @@ CornerSource cornersFor(Engine engine) {
     return CornerSource::pairs;
 }
 
-void enableClipPlanes(int count) {
-    for (int i = 0; i < 8; ++i)
-        (i < count ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
-}
-
 }  // namespace
 
 size_t memoryBytesOf(const SceneReplicators& replicators) {

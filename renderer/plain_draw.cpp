@@ -1,73 +1,60 @@
 #include "renderer/plain_draw.h"
 
-#include "renderer/meshlets.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace curvewall {
-PlainDraw::PlainDraw(const GpuPieces& pieces) {
+namespace {
+
+// Planes through the eye, length one, and the sides of a picture.
+using Sides = std::array<glm::vec3, 4>;
+
+VisibleRuns::SphereTest inSomePicture(const GpuPieces& pieces) {
+    std::vector<Sides> pictures;
     for (const auto& [x, y, w] : pieces.rows) {
         // Clip space is |x| <= w and |y| <= w, and each of these is a plane through the eye.
-        Sides& sides = sides_.emplace_back(Sides{w + x, w - x, w + y, w - y});
+        Sides& sides = pictures.emplace_back(Sides{w + x, w - x, w + y, w - y});
         for (glm::vec3& side : sides) side = glm::normalize(side);
     }
+    return [pictures](glm::vec3 centre, float radius) {
+        return std::ranges::any_of(pictures, [&](const Sides& sides) {
+            return std::ranges::all_of(sides,
+                                       [&](glm::vec3 side) { return glm::dot(side, centre) >= -radius; });
+        });
+    };
 }
 
-void PlainDraw::findRuns(const SceneChunk& chunk, const ChunkRange& range, const SceneView& view) {
-    runs_.clear();
-    if (chunk.changes) {
-        add(range.firstTriangle, range.triangleCount);
-        return;
-    }
-    for (uint32_t i = range.firstMeshlet; i < range.firstMeshlet + range.meshletCount; ++i) {
-        const Meshlet& meshlet = chunk.meshletBounds[i];
-        if (!isSeen(meshlet, range.isSingleSided, view)) continue;
-        add(meshlet.firstTriangle, meshlet.triangleCount);
-        ++drawn_.meshletCount;
-    }
-}
+}  // namespace
 
-bool PlainDraw::isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneView& view) const {
-    const glm::vec3 toCentre = view.wallFromScene * (meshlet.centreM + view.originFromEyeM);
-    // What the subtraction of the eye rounds off is a share of the distance.
-    const float radius = meshlet.radiusM + 1e-6f * glm::length(toCentre);
-    const bool isInside = std::ranges::any_of(sides_, [&](const Sides& sides) {
-        return std::ranges::all_of(
-            sides, [&](const glm::vec3& side) { return glm::dot(side, toCentre) >= -radius; });
-    });
-    return isInside && !(isSingleSided && isBehind(meshlet, -view.originFromEyeM));
-}
-
-void PlainDraw::add(uint32_t firstTriangle, uint32_t triangleCount) {
-    runs_.add(firstTriangle, triangleCount);
-    drawn_.pairCount += triangleCount;
-}
+PlainDraw::PlainDraw(const GpuPieces& pieces)
+    : isLayered_(pieces.rows.size() > 1), runs_(inSomePicture(pieces)) {}
 
 void PlainDraw::draw(std::span<const SceneChunk> chunks, const PieceDraw& draw) {
     draw.timer.begin("surfaces");
     bindStorage(2, draw.pieces.pieces);
-    const bool isLayered = sides_.size() > 1;
-    if (isLayered) emitted_.begin();
+    if (isLayered_) emitted_.begin();
     for (const SceneChunk& chunk : chunks) {
         draw.materials.bindVertices(chunk);
         for (const ChunkRange& range : chunk.ranges) {
-            findRuns(chunk, range, draw.view);
-            if (runs_.isEmpty()) continue;
+            const TriangleRuns& runs = runs_.find(chunk, range, draw.view);
+            if (runs.isEmpty()) continue;
             draw.materials.bind(range.material);
-            runs_.draw(draw.materials.programs);
+            runs.draw(draw.materials.programs);
         }
     }
-    if (isLayered) emitted_.end();
+    if (isLayered_) emitted_.end();
 }
 
 FrameOutcome PlainDraw::finishFrame() {
-    if (sides_.size() > 1) {
-        drawn_.pairCount = 0;
-        for (const uint64_t count : emitted_.take()) drawn_.pairCount += count;
+    FrameOutcome drawn = runs_.found();
+    if (isLayered_) {
+        drawn.pairCount = 0;
+        for (const uint64_t count : emitted_.take()) drawn.pairCount += count;
     }
-    return drawn_;
+    return drawn;
 }
 
 }  // namespace curvewall

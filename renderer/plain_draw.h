@@ -3,10 +3,7 @@
 
 #include "renderer/primitive_queries.h"
 #include "renderer/replicator.h"
-#include "renderer/triangle_runs.h"
-
-#include <array>
-#include <vector>
+#include "renderer/visible_runs.h"
 
 namespace curvewall {
 
@@ -18,22 +15,15 @@ public:
     // Leaves out the meshlets that lie beside every picture or are seen from behind.
     void draw(std::span<const SceneChunk> chunks, const PieceDraw& draw);
 
-    void beginPass() { drawn_ = {}; }
+    void beginPass() { runs_.beginPass(); }
 
     // Triangles, of all pictures, and meshlets drawn in the last pass. Call it after the GPU has finished.
     FrameOutcome finishFrame();
 
 private:
-    // Planes through the eye, length one, and the sides of a picture.
-    using Sides = std::array<glm::vec3, 4>;
-    bool isSeen(const Meshlet& meshlet, bool isSingleSided, const SceneView& view) const;
-    void add(uint32_t firstTriangle, uint32_t triangleCount);
-    void findRuns(const SceneChunk& chunk, const ChunkRange& range, const SceneView& view);
-
-    std::vector<Sides> sides_;  // of each picture
-    TriangleRuns runs_;
+    bool isLayered_;
+    VisibleRuns runs_;
     PrimitiveQueries emitted_;  // by the geometry shader, where there are several pictures
-    FrameOutcome drawn_;
 };
 
 }  // namespace curvewall

@@ -2,6 +2,7 @@
 
 #include "renderer/gl/egl_context.h"
 #include "renderer/methods/automatic_method.h"
+#include "renderer/methods/bounded_raycast_method.h"
 #include "renderer/methods/image_based_method.h"
 #include "renderer/methods/piecewise_method.h"
 #include "renderer/methods/reference_method.h"
@@ -36,6 +37,7 @@ struct Renderer::Impl {
     RasterResources resources;
     PiecewiseMethod piecewise{resources};
     ImageBasedMethod imageBased{resources};
+    BoundedRaycastMethod boundedRaycast{resources};
     ReferenceMethod reference;
     AutomaticMethod automatic;
 
@@ -48,6 +50,8 @@ RenderResult Renderer::Impl::render(const RenderRequest& request, const Display&
             return piecewise.render(request, display);
         case Method::imageBased:
             return imageBased.render(request, display);
+        case Method::boundedRaycast:
+            return boundedRaycast.render(request, display);
         case Method::reference:
             return reference.render(request, display);
         case Method::automatic: {

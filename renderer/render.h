@@ -2,6 +2,7 @@
 // One render, whoever asks for it: the command line and the daemon both come through here.
 
 #include "calibration/wall.h"
+#include "renderer/bounding_shape.h"
 #include "renderer/camera.h"
 #include "renderer/engine.h"
 #include "renderer/face_pass.h"
@@ -24,6 +25,7 @@ struct FittedPieces;
 enum class Method {
     piecewise,
     imageBased,
+    boundedRaycast,
     reference,
     automatic,  // the fastest of those that meet the tolerance, but for the reference
 };
@@ -44,8 +46,9 @@ struct RenderRequest {
     SourceFilter filter = SourceFilter::linear;  // of colour; other outputs take the nearest texel
     FacePass facePass = FacePass::separate;
     SourceLookup lookup = SourceLookup::pixel;
-    int meshStepPx = kDefaultMeshStepPx;  // of SourceLookup::mesh
-    int samples = 1;                      // reference: rays per pixel; raster methods: MSAA samples
+    int meshStepPx = kDefaultMeshStepPx;             // of SourceLookup::mesh
+    BoundingShape bounds = BoundingShape::triangle;  // bounded-raycast
+    int samples = 1;  // reference: rays per pixel; raster methods: MSAA samples
     // Of textures, raster methods: 1 to kMostAnisotropy. Without one what the GL at hand does well: as much
     // as it can on hardware, 1 on a software renderer.
     std::optional<int> anisotropy{};

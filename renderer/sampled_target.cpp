@@ -66,7 +66,7 @@ void SampledTarget::addPass() const {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
-    for (GLenum plane = 0; plane < 8; ++plane) glDisable(GL_CLIP_DISTANCE0 + plane);
+    enableClipPlanes(0);
     glUseProgram(addProgram_.id());
     glBindTextureUnit(0, target_.texture().id());
     glBindSampler(0, 0);

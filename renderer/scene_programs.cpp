@@ -2,13 +2,52 @@
 
 #include "renderer/pair_drawing.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace curvewall {
+namespace {
+
+// Bounding shapes reach so far beyond what they bound, for the rounding of shapes and of the rasterizer.
+constexpr double kBoundsGuardPx = 1.0 / 16;
+
+std::vector<std::string> definesOf(const BoundedPath& path) {
+    const bool isQuad = path.shape == BoundingShape::quad;
+    const int corners = (isQuad ? 4 : 12) + (path.isWide ? 12 : 0);
+    std::vector<std::string> defines{"LENS " + std::to_string(static_cast<int>(path.lens)),
+                                     "MOST_CORNERS " + std::to_string(corners)};
+    if (isQuad) defines.emplace_back("BOUNDS_QUAD");
+    if (path.isWide) defines.emplace_back("WIDE");
+    if (!isQuad || path.isWide) defines.emplace_back("PARTED");
+    if (path.perSample) defines.emplace_back("PER_SAMPLE");
+    if (path.fragments == BoundedPath::Fragments::covered) defines.emplace_back("COUNTS_COVERED");
+    if (path.fragments == BoundedPath::Fragments::hits) defines.emplace_back("COUNTS_HITS");
+    return defines;
+}
+
+void setLens(GLuint program, const RoundLens& lens) {
+    const std::vector<float> coefficients(lens.function.coefficients.begin(),
+                                          lens.function.coefficients.end());
+    const glm::dvec2 sizePx(lens.sizePx);
+    const glm::vec2 centre(2.0 * lens.centrePx / sizePx - 1.0);
+    const glm::vec2 focal(glm::dvec2(2, -2) * lens.focalPx / sizePx);
+    const glm::mat3 wallFromLens(lens.wallFromLens);
+    glProgramUniform1fv(program, 30, static_cast<GLsizei>(coefficients.size()), coefficients.data());
+    glProgramUniform2fv(program, 39, 1, &centre[0]);
+    glProgramUniform2fv(program, 40, 1, &focal[0]);
+    glProgramUniform1f(program, 41, static_cast<float>(lens.edgeRad));
+    glProgramUniform1f(program, 42,
+                       static_cast<float>(kBoundsGuardPx / std::min(lens.focalPx.x, lens.focalPx.y)));
+    glProgramUniformMatrix3fv(program, 43, 1, GL_FALSE, &wallFromLens[0][0]);
+}
+
+}  // namespace
 
 std::string outputDefine(OutputKind output) {
     switch (output) {
@@ -29,6 +68,11 @@ GlProgram sceneProgram(CornerSource source, const std::vector<std::string>& defi
         return makeProgram({{GL_VERTEX_SHADER, "scene.vert"},
                             {GL_GEOMETRY_SHADER, "layered.geom"},
                             {GL_FRAGMENT_SHADER, "scene.frag"}},
+                           defines);
+    if (source == CornerSource::bounded)
+        return makeProgram({{GL_VERTEX_SHADER, "bounded.vert"},
+                            {GL_GEOMETRY_SHADER, "bounded.geom"},
+                            {GL_FRAGMENT_SHADER, "bounded.frag"}},
                            defines);
     if (source != CornerSource::tessellated)
         return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
@@ -60,7 +104,9 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(layered, "LAYERED");
         if (layered) defines.push_back("LAYERS " + std::to_string(path.layers));
         const bool tessellated = path.source == CornerSource::tessellated;
-        const bool onePiece = path.source == CornerSource::plain || layered;
+        const bool bounded = path.source == CornerSource::bounded;
+        if (bounded) std::ranges::move(definesOf(path.bounded), std::back_inserter(defines));
+        const bool onePiece = path.source == CornerSource::plain || layered || bounded;
         const bool owned = path.singleCover || (variant.blended && !onePiece);
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
@@ -71,7 +117,7 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         defineIf(variant.textured, "TEXTURED");
         defineIf(variant.masked, "MASKED");
         // Replications carry their facing and the hidden ones are never made; a plain draw has to look.
-        const bool checksFacing = !pairs && !tessellated && (variant.lit || variant.singleSided);
+        const bool checksFacing = !pairs && !tessellated && !bounded && (variant.lit || variant.singleSided);
         defineIf(checksFacing, "CHECK_FACING");
         defineIf(!pairs && variant.singleSided, "SINGLE_SIDED");
         programs_.emplace(variant, Entry{sceneProgram(path.source, defines), checksFacing, owned});
@@ -109,7 +155,20 @@ std::vector<std::string> ScenePrograms::attributes() const {
 }
 
 void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const {
-    const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(pieces.sizePx);
+    setPass(view, pieces.sizePx, pass);
+    for (const auto& [variant, entry] : programs_) {
+        if (entry.owned) glProgramUniform1i(entry.program.id(), 17, pass.firstSample);
+        if (entry.checksFacing) glProgramUniform1i(entry.program.id(), 12, pieces.frontIsClockwise.front());
+    }
+}
+
+void ScenePrograms::setFrame(const SceneView& view, const RoundLens& lens, const FramePass& pass) const {
+    setPass(view, lens.sizePx, pass);
+    for (const auto& [variant, entry] : programs_) setLens(entry.program.id(), lens);
+}
+
+void ScenePrograms::setPass(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const {
+    const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(sizePx);
     const glm::vec3 sampling(pass.shiftPx, std::exp2(pass.lodBias));
     for (const auto& [variant, entry] : programs_) {
         const GLuint program = entry.program.id();
@@ -117,8 +176,6 @@ void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, con
         glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
         glProgramUniform1f(program, 9, kNearFraction);
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
-        if (entry.owned) glProgramUniform1i(program, 17, pass.firstSample);
-        if (entry.checksFacing) glProgramUniform1i(program, 12, pieces.frontIsClockwise.front());
         if (drawsEdges_) glProgramUniform3fv(program, 22, 1, &sampling[0]);
     }
 }

@@ -1,15 +1,18 @@
 #pragma once
 // The variants of scene.vert and scene.frag that a look needs, compiled before the first frame.
 
+#include "renderer/bounding_shape.h"
 #include "renderer/frame_pass.h"
 #include "renderer/gl/program.h"
 #include "renderer/gpu_pieces.h"
 #include "renderer/look.h"
+#include "renderer/round_lens.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene_view.h"
 
 #include <compare>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +33,21 @@ enum class CornerSource {
     pairs,        // pulled by (triangle, piece) pairs
     tessellated,  // triangles by number, replicated on their way
     layered,      // plain vertices, each triangle into several pictures of one piece each
+    bounded,      // plain triangles, which rays are cast at within bounding shapes
+};
+
+// For CornerSource::bounded.
+struct BoundedPath {
+    // What fragments do: show the scene, or stand for what a query counts.
+    enum class Fragments { shown, covered, hits };
+
+    BoundingShape shape = BoundingShape::triangle;
+    RadialModel lens = RadialModel::equidistant;
+    bool isWide = false;     // more than half a turn
+    bool perSample = false;  // each sample of a pass has a ray
+    Fragments fragments = Fragments::shown;
+
+    bool operator==(const BoundedPath&) const = default;
 };
 
 struct GeometryPath {
@@ -39,6 +57,7 @@ struct GeometryPath {
     int ownerSamples = 1;      // owners that a pixel has in one pass
     bool closesHoles = false;  // pixels without an owner are closed before anything is drawn
     int layers = 0;            // pictures that are drawn at once, where they are layered
+    BoundedPath bounded{};
 
     bool operator==(const GeometryPath&) const = default;
 };
@@ -62,8 +81,10 @@ public:
     };
     Chosen choose(const Material& material) const;
 
-    // Sets what is the same for all materials of a pass.
+    // Sets what is the same for all materials of a pass, for pieces or for a lens.
     void setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const;
+    // `view` is in lens axes.
+    void setFrame(const SceneView& view, const RoundLens& lens, const FramePass& pass) const;
 
     // For one of its programs: how triangles seen from the front turn on the screen.
     void setFacing(GLuint program, bool frontIsClockwise) const;
@@ -82,6 +103,7 @@ private:
         bool checksFacing = false, owned = false;
     };
     Variant variantFor(const Material& material) const;
+    void setPass(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const;
 
     SceneLook look_;
     bool drawsEdges_;

@@ -15,9 +15,11 @@ struct SceneView {
     glm::vec3 originFromEyeM;  // scene axes
 };
 
-// The eye is subtracted in double before anything becomes float.
-inline SceneView sceneViewOf(const Camera& camera, glm::dvec3 eyeInWallM, const Scene& scene) {
-    return {glm::mat3(glm::transpose(rotationFromOrientation(camera.orientation))),
+// The eye is subtracted in double before anything becomes float. `pictureFromWall`
+// turns the view to other axes than the wall's.
+inline SceneView sceneViewOf(const Camera& camera, glm::dvec3 eyeInWallM, const Scene& scene,
+                             const glm::dmat3& pictureFromWall = glm::dmat3(1)) {
+    return {glm::mat3(pictureFromWall * glm::transpose(rotationFromOrientation(camera.orientation))),
             glm::vec3(scene.originM - eyeInScene(camera, eyeInWallM))};
 }
 

@@ -64,6 +64,12 @@ nlohmann::json toJson(const RenderStats& stats) {
             json["lookup_error_px"] = toJson(stats.lookupError);
         }
     }
+    if (stats.method == "bounded-raycast") {
+        json["bounds"] = stats.bounds;
+        json["covered_fragments"] = stats.coveredFragments;
+        json["rendered_fragments"] = stats.renderedFragments;
+        json["overdraw"] = stats.overdraw();
+    }
     if (stats.choice) json["auto"] = toJson(*stats.choice);
     return json;
 }

@@ -49,6 +49,9 @@ struct RenderStats {
     int levels = 0;                       // of halved faces
     int meshStepPx = 0;                   // where the lookup is a mesh, as is the next
     GeometricError lookupError;           // of the places alone
+    std::string bounds;                   // bounded-raycast, as are the next two, of frame 0
+    uint64_t coveredFragments = 0;        // of bounding shapes
+    uint64_t renderedFragments = 0;       // of those, where a ray meets the triangle
     uint64_t triangles = 0;               // in the scene
     uint64_t pairs = 0;                   // (triangle, piece) pairs drawn in frame 0
     uint64_t meshlets = 0;                // of the scene's surfaces
@@ -67,6 +70,11 @@ struct RenderStats {
     double pairsMemoryMib = 0;  // and for what finds its pairs
 
     std::optional<ChoiceStats> choice{};
+    double overdraw() const {
+        return renderedFragments == 0
+                   ? 0
+                   : static_cast<double>(coveredFragments) / static_cast<double>(renderedFragments) - 1;
+    }
 
     double replicationRatio() const {
         return triangles == 0 ? 0 : static_cast<double>(pairs) / static_cast<double>(triangles);

@@ -170,7 +170,7 @@ void StrokeRenderer::recordBlended(const SceneView& view, const FramePass& pass)
 void StrokeRenderer::record(const SceneView& view, const FramePass& pass, bool blended) {
     const std::vector<Material>& materials = scene_.scene->materials;
     Coverage& coverage = strokes_.coverage;
-    for (int i = 0; i < 8; ++i) glDisable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
+    enableClipPlanes(0);
     // Each sample of a pixel has its own distance from a stroke.
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1);

@@ -93,6 +93,7 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
                              std::to_string(*size));
         request.faceSizePx = static_cast<int>(*size);
     }
+    readName(fields, "bounds", boundsFromName, boundsNames, request.bounds);
     request.samples = static_cast<int>(fields.wholeNumber("samples", 1, kMostSamples).value_or(1));
     if (const auto anisotropy = fields.wholeNumber("anisotropy", 1, kMostAnisotropy))
         request.anisotropy = static_cast<int>(*anisotropy);

@@ -25,6 +25,8 @@ struct RadialFunction {
 
     // The angle up to which the radius grows and is finite, half a turn at most; 0 where it never does.
     double limitRad() const;
+
+    bool operator==(const RadialFunction&) const = default;
 };
 
 class RadialLens : public Lens {

@@ -57,6 +57,11 @@ GlFramebuffer makeFramebuffer() {
     return GlFramebuffer(id);
 }
 
+void enableClipPlanes(int count) {
+    for (int i = 0; i < 8; ++i)
+        (i < count ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
+}
+
 void bindStorage(GLuint binding, const GlBuffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
 }

@@ -24,6 +24,8 @@ GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels = 1
 GlRenderbuffer makeRenderbuffer(GLenum internalFormat, glm::ivec2 sizePx, int samples = 1);
 GlVertexArray makeVertexArray();
 GlFramebuffer makeFramebuffer();
+// The first so many clip distances are looked at, and no others.
+void enableClipPlanes(int count);
 void bindStorage(GLuint binding, const GlBuffer& buffer);
 
 // Throws std::runtime_error when the driver cannot render to it, as when there is no memory for its pictures.

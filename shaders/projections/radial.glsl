@@ -70,9 +70,24 @@ SHARED_FN real2 radialPosition(int model, const real c[kRadialTerms], real3 dire
     return offAxis > 0.0 ? real2(direction.x, direction.y) * (radius / offAxis) : real2(radius, 0.0);
 }
 
+// Sine and cosine of the angle with this radius, without the angle where formulas need none.
+SHARED_FN real2 radialSineCosine(int model, const real c[kRadialTerms], real radius, real most) {
+    if (model == kOrthographic) return real2(radius, sqrt(max((1.0 - radius) * (1.0 + radius), 0.0)));
+    if (model == kStereographic) {
+        real squared = 0.25 * radius * radius;
+        return real2(radius, 1.0 - squared) / (1.0 + squared);
+    }
+    if (model == kEquisolid) {
+        real sineOfHalf = 0.5 * radius;
+        return real2(radius * sqrt(max((1.0 - sineOfHalf) * (1.0 + sineOfHalf), 0.0)), 1.0 - 2.0 * sineOfHalf * sineOfHalf);
+    }
+    real angle = radialAngle(model, c, radius, most);
+    return real2(sin(angle), cos(angle));
+}
+
 SHARED_FN real3 radialDirection(int model, const real c[kRadialTerms], real2 position, real most) {
     real radius = length(position);
-    real angle = radialAngle(model, c, radius, most);
+    real2 sineCosine = radialSineCosine(model, c, radius, most);
     real2 side = radius > 0.0 ? position / radius : real2(1.0, 0.0);
-    return real3(sin(angle) * side.x, sin(angle) * side.y, -cos(angle));
+    return real3(sineCosine.x * side.x, sineCosine.x * side.y, -sineCosine.y);
 }

@@ -1,0 +1,213 @@
+// Triangles that are hard to bound, through every round lens: which pixels bounded-raycast covers, against a
+// test of every pixel's ray in double precision, written apart from the renderer.
+
+#include "calibration/pieces/pixel_rays.h"
+#include "tests/support/gl_fixture.h"
+#include "tests/support/lens_walls.h"
+#include "tests/support/random_numbers.h"
+#include "tests/support/rendering.h"
+#include "tests/support/test_scenes.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace curvewall {
+namespace {
+
+using test::kPi;
+using Corners = std::array<glm::vec3, 3>;
+constexpr glm::ivec2 kSizePx(192, 160);
+
+class BoundedTriangles : public test::GlTest, public testing::WithParamInterface<test::LensKind> {
+protected:
+    void expectExactCoverage(const std::vector<Corners>& triangles, const Orientation& orientation = {});
+    void expectReferencePicture(const Corners& triangle);
+
+    Renderer renderer_;
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryLens, BoundedTriangles, testing::ValuesIn(test::lensKinds()),
+                         [](const auto& lens) { return lens.param.name; });
+
+// Signs of three volumes; nothing where the ray passes so near an edge that single precision may see it
+// beyond.
+std::optional<bool> meets(const Corners& triangle, glm::dvec3 ray) {
+    const std::array<glm::dvec3, 3> p{triangle[0], triangle[1], triangle[2]};
+    const double side = glm::dot(p[0], glm::cross(p[1], p[2]));
+    bool inside = true, unsure = false;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 plane = glm::cross(p[i], p[(i + 1) % 3] - p[i]);
+        const double height = glm::dot(ray, plane) / glm::length(plane);
+        unsure = unsure || std::abs(height) < 1e-5;
+        inside = inside && height * side > 0;
+    }
+    return unsure ? std::nullopt : std::optional(inside);
+}
+
+RenderRequest requestFor(const test::LensKind& kind, const std::vector<Corners>& triangles,
+                         const Orientation& orientation) {
+    Scene scene;
+    startMaterial(scene, plainMaterial({0.2, 0.9, 0.4}));
+    for (const Corners& triangle : triangles) addTriangle(scene, triangle);
+    RenderRequest request = test::requestFor(test::lensWall(kind, kSizePx, orientation), std::move(scene));
+    request.method = Method::boundedRaycast;
+    return request;
+}
+
+void BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles,
+                                           const Orientation& orientation) {
+    RenderRequest request = requestFor(GetParam(), triangles, orientation);
+    request.output = OutputKind::coverage;
+    const PixelRays rays(*request.wall->displays[0].projection, kSizePx);
+    std::vector<int> least, most;
+    for (int y = 0; y < kSizePx.y; ++y)
+        for (int x = 0; x < kSizePx.x; ++x) {
+            least.push_back(0);
+            most.push_back(0);
+            if (!rays.has({x, y})) continue;
+            const glm::dvec3 ray = glm::normalize(rays.at({x, y}));
+            for (const Corners& triangle : triangles) {
+                const std::optional<bool> met = meets(triangle, ray);
+                least.back() += met.value_or(false);
+                most.back() += met.value_or(true);
+            }
+        }
+    for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
+        request.bounds = bounds;
+        const Frame coverage = renderer_.render(request).frame;
+        int missed = 0, tooMany = 0;
+        for (size_t i = 0; i < coverage.texels.size(); ++i) {
+            missed += static_cast<int>(coverage.texels[i]) < least[i];
+            tooMany += static_cast<int>(coverage.texels[i]) > most[i];
+        }
+        EXPECT_EQ(missed, 0) << (bounds == BoundingShape::quad ? "quad" : "triangle");
+        EXPECT_EQ(tooMany, 0) << (bounds == BoundingShape::quad ? "quad" : "triangle");
+    }
+}
+
+void BoundedTriangles::expectReferencePicture(const Corners& triangle) {
+    RenderRequest request = requestFor(GetParam(), {triangle}, {});
+    const Frame expected = test::referenceOf(request).frame;
+    for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
+        request.bounds = bounds;
+        EXPECT_LT(compareColor(renderer_.render(request).frame, expected).shareOff, 5e-5);
+    }
+}
+
+// What lies `angleDeg` off the axis at an azimuth.
+glm::vec3 at(double angleDeg, double azimuthDeg, double distanceM = 3) {
+    const double angle = angleDeg * kPi / 180, azimuth = azimuthDeg * kPi / 180;
+    return glm::vec3(distanceM * glm::dvec3(std::sin(angle) * std::cos(azimuth),
+                                            std::sin(angle) * std::sin(azimuth), -std::cos(angle)));
+}
+
+glm::vec3 float3(glm::dvec3 v) { return glm::vec3(v); }
+
+TEST_P(BoundedTriangles, OneCornerBeyondTheBorder) {  // figure 4 (a)
+    const double edge = std::min(GetParam().fovDeg / 2, 90.0);
+    for (const double azimuth : {0.0, 77.0, 200.0}) {
+        const Corners triangle{at(0.5 * edge, azimuth), at(0.6 * edge, azimuth + 70),
+                               at(edge + 35, azimuth + 20)};
+        expectExactCoverage({triangle});
+        expectReferencePicture(triangle);
+    }
+}
+
+TEST_P(BoundedTriangles, TwoCornersBeyondTheBorder) {  // figure 4 (b)
+    const double edge = std::min(GetParam().fovDeg / 2, 90.0);
+    for (const double azimuth : {0.0, 77.0, 200.0}) {
+        const Corners triangle{at(0.4 * edge, azimuth + 30), at(edge + 30, azimuth - 40),
+                               at(edge + 20, azimuth + 80)};
+        expectExactCoverage({triangle});
+        expectReferencePicture(triangle);
+    }
+}
+
+TEST_P(BoundedTriangles, AnglesOfMoreThanHalfATurn) {  // figure 4 (c)
+    // Thin, along the horizon: the middle corner lies inside the bow of the edge opposite.
+    const double edge = std::min(GetParam().fovDeg / 2, 90.0);
+    for (const double azimuth : {0.0, 77.0, 200.0})
+        for (const double lift : {-6.0, -2.0, 2.0}) {
+            const Corners triangle{at(0.95 * edge, azimuth - 60), at(0.95 * edge, azimuth + 60),
+                                   at(0.93 * edge + lift, azimuth + 3)};
+            expectExactCoverage({triangle});
+            expectReferencePicture(triangle);
+        }
+}
+
+TEST_P(BoundedTriangles, AllThreeCornersBeyondTheBorder) {
+    // Around the lens, across its axis, and beside it.
+    expectExactCoverage({Corners{at(100, 10), at(110, 130), at(95, 250)}});
+    expectExactCoverage({Corners{at(120, 0), at(120, 5), at(120, 182)}});
+    expectExactCoverage({Corners{at(150, 0), at(150, 100), at(130, 50)}});
+}
+
+TEST_P(BoundedTriangles, RandomOnesOfAllSizes) {
+    test::Random random(7);
+    for (const double size : {0.02, 0.3, 2.0, 30.0}) {
+        std::vector<Corners> triangles;
+        while (triangles.size() < 100) {
+            const glm::dvec3 centre = 3.0 * random.direction();
+            Corners triangle;
+            for (glm::vec3& corner : triangle) corner = float3(centre + random.inBox(size));
+            triangles.push_back(triangle);
+        }
+        expectExactCoverage(triangles, test::kTurned);
+    }
+}
+
+TEST_P(BoundedTriangles, Slivers) {
+    test::Random random(8);
+    std::vector<Corners> triangles;
+    while (triangles.size() < 150) {
+        const glm::dvec3 a = 3.0 * random.direction(), b = 3.0 * random.direction();
+        const double share = random.uniform(-0.2, 1.2), width = std::pow(10, random.uniform(-4, -1));
+        triangles.push_back(
+            {float3(a), float3(b), float3(glm::mix(a, b, share) + width * random.direction())});
+    }
+    expectExactCoverage(triangles);
+}
+
+TEST_P(BoundedTriangles, NearTheEye) {
+    // Planes a few tenths of a millimetre beside the eye, of triangles metres wide.
+    test::Random random(9);
+    std::vector<Corners> triangles;
+    while (triangles.size() < 60) {
+        const glm::dvec3 normal = random.direction(),
+                         right = glm::normalize(glm::cross(normal, random.direction())),
+                         up = glm::cross(normal, right);
+        const double distance = std::pow(10, random.uniform(-3.5, -0.5));
+        Corners triangle;
+        for (glm::vec3& corner : triangle)
+            corner = float3(distance * normal + random.uniform(-4, 4) * right + random.uniform(-4, 4) * up);
+        triangles.push_back(triangle);
+    }
+    expectExactCoverage(triangles);
+}
+
+TEST_P(BoundedTriangles, AlongTheBorderAndTheHorizon) {
+    // Corners on the border of the picture and in the plane across the axis, exactly and by a hair.
+    test::Random random(10);
+    const double edge = GetParam().fovDeg / 2;
+    std::vector<Corners> triangles;
+    while (triangles.size() < 100) {
+        Corners triangle;
+        for (glm::vec3& corner : triangle) {
+            const double around = random.uniform(0, 1) < 0.5 ? edge : 90;
+            const double off = random.uniform(0, 1) < 0.3 ? 0 : std::pow(10, random.uniform(-5, 1));
+            corner = at(around + (random.uniform(0, 1) < 0.5 ? off : -off), random.uniform(0, 360),
+                        random.uniform(0.5, 5));
+        }
+        triangles.push_back(triangle);
+    }
+    expectExactCoverage(triangles);
+}
+
+}  // namespace
+}  // namespace curvewall
