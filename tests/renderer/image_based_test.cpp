@@ -1,8 +1,13 @@
 #include "calibration/errors.h"
+#include "calibration/projections/lens_projection.h"
+#include "calibration/projections/radial_lens.h"
+#include "calibration/projections/sphere_slices_lens.h"
 #include "renderer/prepared_images.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/hard_cases/wall_files.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/rendering.h"
+#include "tests/support/test_projections.h"
 #include "tests/support/test_scenes.h"
 #include "tests/support/test_walls.h"
 
@@ -10,8 +15,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <ostream>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -95,6 +104,13 @@ TEST_F(ImageBased, StatedErrorIsThatOfThePointsItShows) {
     const RenderResult planar = Renderer().render(room);
     // Texels that reach beyond the display's edge are left out of the certificate.
     EXPECT_NEAR(largestOffsetPx(planar.frame, part), planar.stats.geometricError.maxPx, 0.05);
+    // What a coarse mesh interpolates is part of it.
+    room.lookup = SourceLookup::mesh;
+    room.meshStepPx = 64;
+    const RenderResult coarse = Renderer().render(room);
+    EXPECT_GT(coarse.stats.geometricError.maxPx, planar.stats.geometricError.maxPx + 1);
+    EXPECT_GT(coarse.stats.lookupError.maxPx, 1);
+    EXPECT_NEAR(largestOffsetPx(coarse.frame, part), coarse.stats.geometricError.maxPx, 0.05);
 }
 
 TEST_F(ImageBased, StatsTellTheSourceAndTheFilter) {
@@ -108,8 +124,22 @@ TEST_F(ImageBased, StatsTellTheSourceAndTheFilter) {
         EXPECT_EQ(stats.faces, 1);
         EXPECT_EQ(stats.faceSizePx, 64);
     }
+    room.filter = SourceFilter::mipmap;
+    room.facePass = FacePass::layered;
+    room.lookup = SourceLookup::mesh;
+    room.meshStepPx = 8;
+    const RenderStats stats = Renderer().render(room).stats;
+    EXPECT_EQ(stats.filter, "mipmap");
+    EXPECT_EQ(stats.facePass, "layered");
+    EXPECT_EQ(stats.lookup, "mesh");
+    EXPECT_EQ(stats.meshStepPx, 8);
+    EXPECT_GT(stats.levels, 0);
+    // 64 texels across the whole width, and the aprons that the levels need.
+    EXPECT_GT(stats.sourceTexels, 64u * 40);
+    EXPECT_LT(stats.sourceTexels, 100u * 90);
     room.output = OutputKind::depth;
     EXPECT_EQ(Renderer().render(room).stats.filter, "nearest");
+    EXPECT_EQ(Renderer().render(room).stats.levels, 0);
 }
 
 double meanSquare(const Frame& a, const Frame& b) {
@@ -187,20 +217,26 @@ TEST_F(ImageBased, WhatIsPreparedIsKept) {
     PreparedImages images;
     const auto wall = std::make_shared<const Wall>(test::fullCylinderWall({40, 30}));
     const Display& display = wall->displays[0];
-    const auto source = images.source(wall, display, SourceKind::cube, 64);
-    EXPECT_EQ(images.source(wall, display, SourceKind::cube, 64), source);
-    EXPECT_NE(images.source(wall, display, SourceKind::cube, 128), source);
+    const auto source = images.source(wall, display, {.faceSizePx = 64});
+    EXPECT_EQ(images.source(wall, display, {.faceSizePx = 64}), source);
+    for (const SourceSettings& other : {SourceSettings{.faceSizePx = 128},
+                                        {.faceSizePx = 64, .hasLevels = true},
+                                        {.faceSizePx = 64, .pass = FacePass::layered},
+                                        {.faceSizePx = 64, .lookup = SourceLookup::mesh, .meshStepPx = 16}})
+        EXPECT_NE(images.source(wall, display, other), source);
     const auto pictures = images.pictures(source->gpu, {}, 4);
     EXPECT_EQ(images.pictures(source->gpu, {}, 4), pictures);
     EXPECT_NE(images.pictures(source->gpu, {}, 1), pictures);
     // One large set at a time.
-    const auto many = images.source(wall, display, SourceKind::cube, 2048);
+    const auto many = images.source(wall, display, {.faceSizePx = 2048});
     const std::weak_ptr large = images.pictures(many->gpu, {}, 1);
     EXPECT_FALSE(large.expired());
-    images.pictures(images.source(wall, display, SourceKind::cube, 2000)->gpu, {}, 1);
+    images.pictures(images.source(wall, display, {.faceSizePx = 2000})->gpu, {}, 1);
     EXPECT_TRUE(large.expired());
     EXPECT_EQ(images.pictures(source->gpu, {}, 4), pictures);
-    EXPECT_EQ(images.resampler(SourceFilter::linear), images.resampler(SourceFilter::linear));
+    const auto resampler = images.resampler(SourceFilter::linear, SourceLookup::pixel);
+    EXPECT_EQ(images.resampler(SourceFilter::linear, SourceLookup::pixel), resampler);
+    EXPECT_NE(images.resampler(SourceFilter::linear, SourceLookup::mesh), resampler);
 }
 
 TEST_F(ImageBased, TheSameRequestGivesTheSamePictureWhateverCameBetween) {
@@ -216,6 +252,228 @@ TEST_F(ImageBased, TheSameRequestGivesTheSamePictureWhateverCameBetween) {
                 renderer.render(other);
             }
     EXPECT_EQ(renderer.render(room).frame.texels, first.texels);
+}
+
+Wall lensWall(LensPtr lens, glm::ivec2 sizePx) {
+    const Orientation orientation{0.4, 0.6, 0.1};
+    return {"lens",
+            {},
+            {},
+            {{"front", sizePx, "lens", std::make_shared<LensProjection>(std::move(lens), orientation)}}};
+}
+
+Wall domeWall(glm::ivec2 sizePx, double fovRad = test::kPi) {
+    return lensWall(circularLens({}, fovRad, sizePx), sizePx);
+}
+
+Wall slicesWall(glm::ivec2 sizePx) {
+    // To 170 degrees: at the ends of whole half turns, all rows see the same.
+    constexpr double kFovRad = 2.97;
+    return lensWall(std::make_shared<SphereSlicesLens>(kFovRad, kFovRad, sizePx), sizePx);
+}
+
+Wall cameraTextureWall(glm::ivec2 sizePx) {
+    const test::TemporaryFolder folder;
+    const auto bent = [&](glm::dvec2 at) {
+        const glm::dvec2 c = at - 0.5;
+        return glm::dvec3(sizePx.x * -0.1 * c.x * (4 * c.x * c.x - 1),
+                          sizePx.y * 0.14 * c.y * (1 - 4 * c.x * c.x), 0);
+    };
+    folder.write("offsets.pfm", test::pfmBytes(test::mapOf({33, 33}, true, bent)));
+    return test::readWallOf(folder, test::cameraTexture("offsets.pfm", "inverse"), sizePx);
+}
+
+struct DisplayCase {
+    std::string name;
+    std::function<Wall()> wall;
+    std::vector<SourceKind> sources;
+};
+
+void PrintTo(const DisplayCase& display, std::ostream* out) { *out << display.name; }
+
+std::vector<DisplayCase> displayCases() {
+    using enum SourceKind;
+    return {{"Planar",
+             [] {
+                 return test::planarWall({200, 150}, 80);
+             },
+             {cube, hemicube, planar}},
+            {"Cylinder",
+             [] {
+                 return test::cylinderWall({2, 2.5, 2, {}, {}}, {0.4, 0.1, 0.3}, {240, 120});
+             },
+             {cube, hemicube, planar}},
+            {"FullCylinder",
+             [] {
+                 return test::fullCylinderWall({240, 180});
+             },
+             {cube}},
+            {"Dome",
+             [] {
+                 return domeWall({200, 200});
+             },
+             {cube, hemicube}},
+            {"CameraTexture",
+             [] {
+                 return cameraTextureWall({200, 150});
+             },
+             {cube, hemicube, planar}},
+            {"SphereSlices",
+             [] {
+                 return slicesWall({200, 200});
+             },
+             {cube, hemicube}}};
+}
+
+class ImageBasedOn : public ImageBased, public ::testing::WithParamInterface<DisplayCase> {};
+
+// Flat colours: what is off lies along edges, which the texels blur. At one texel a pixel a linear filter
+// spreads an edge over two pixels; in a closed room some pixels in a hundred are that near to one.
+TEST_P(ImageBasedOn, EverySourceFilterLookupAndPassAgreesWithTheReference) {
+    RenderRequest room = request(GetParam().wall(), boxRoom({8, 5, 8}), 0);
+    room.camera = {{0.5, 0.3, 1}, {0.7, 0.2, 0.1}};
+    room.style = Style::unlit;
+    room.meshStepPx = 8;
+    const Frame truth = test::referenceOf(room).frame;
+    Renderer renderer;
+    for (const SourceKind source : GetParam().sources) {
+        for (const SourceFilter filter : {SourceFilter::nearest, SourceFilter::linear, SourceFilter::bicubic,
+                                          SourceFilter::mipmap, SourceFilter::anisotropic}) {
+            for (const SourceLookup lookup : {SourceLookup::pixel, SourceLookup::mesh}) {
+                Frame separate;
+                for (const FacePass pass : {FacePass::separate, FacePass::layered}) {
+                    room.source = source, room.filter = filter, room.lookup = lookup, room.facePass = pass;
+                    const Frame frame = renderer.render(room).frame;
+                    const ImageDifference off = compareColor(frame, truth);
+                    const std::string which = std::to_string(int(source)) + " " +
+                                              std::to_string(int(filter)) + " " + std::to_string(int(lookup));
+                    EXPECT_LT(off.shareOff, filter == SourceFilter::nearest ? 0.01 : 0.045) << which;
+                    EXPECT_GT(off.psnrDb, 27) << which;
+                    if (pass == FacePass::separate)
+                        separate = frame;
+                    else
+                        EXPECT_LE(compareColor(frame, separate).maxDifference, 1) << which;
+                }
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Displays, ImageBasedOn, ::testing::ValuesIn(displayCases()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_F(ImageBased, LayeredFacesShowWhatSeparateOnesDo) {
+    // Two-sided and one-sided, textured, masked and lit.
+    RenderRequest city = request(domeWall({200, 200}, 5), loadScene("city:5000"), 150);
+    Renderer renderer;
+    const auto bothOf = [&](const RenderRequest& asked) {
+        RenderRequest layered = asked;
+        layered.facePass = FacePass::layered;
+        return std::pair{renderer.render(asked), renderer.render(layered)};
+    };
+    for (const Style style : {Style::textured, Style::unlit, Style::wireframe, Style::penAndInk}) {
+        city.style = style;
+        const auto [separate, layered] = bothOf(city);
+        EXPECT_LE(compareColor(layered.frame, separate.frame).maxDifference, 1) << int(style);
+        EXPECT_EQ(layered.stats.attributes, separate.stats.attributes);
+        // Those beside a face are left out triangle by triangle, and not by their meshlet.
+        EXPECT_LT(layered.stats.pairs, separate.stats.pairs);
+        EXPECT_GT(layered.stats.pairs, 100u);
+    }
+    city.style = Style::textured;
+    city.samples = 4;
+    const auto [separate, layered] = bothOf(city);
+    EXPECT_LE(compareColor(layered.frame, separate.frame).maxDifference, 1);
+    city.samples = 1;
+    for (const OutputKind output : {OutputKind::depth, OutputKind::coverage, OutputKind::position}) {
+        city.output = output;
+        const auto [one, all] = bothOf(city);
+        size_t off = 0;
+        for (size_t i = 0; i < one.frame.texels.size(); ++i) {
+            const float a = one.frame.texels[i], b = all.frame.texels[i];
+            off += std::isfinite(a) != std::isfinite(b) || std::abs(a - b) > 1e-4f * std::abs(a);
+        }
+        EXPECT_EQ(off, 0u) << int(output);
+    }
+}
+
+TEST_F(ImageBased, LayeredFacesBlendAndCullLikeSeparateOnes) {
+    Scene scene = boxRoom({8, 5, 8});
+    Material glass = plainMaterial({0.2, 0.9, 0.4});
+    glass.baseColor.a = 0.4f;
+    glass.blending = Blending::alpha;
+    glass.doubleSided = true;
+    startMaterial(scene, glass);
+    addFrontalSquare(scene, {0.5, 0, -1.5}, 3);
+    addFrontalSquare(scene, {-1.5, 0, -2.5}, 3);
+    Material oneSided = plainMaterial({0.9, 0.9, 0.9});
+    oneSided.doubleSided = false;
+    startMaterial(scene, oneSided);
+    addFrontalSquare(scene, {0.8, 0.4, -2}, 1);
+    addFrontalSquare(scene, {0.8, 0.4, 2}, 1);  // seen from behind
+    for (const double originM : {0.0, 1e6}) {
+        Scene far = scene;
+        far.originM = glm::dvec3(originM, 0, -originM);
+        RenderRequest room = request(test::fullCylinderWall({240, 180}), far, 128);
+        room.camera = {far.originM + glm::dvec3(0.1, 0.2, 0), {0.4, 0, 0}};
+        const Frame truth = test::referenceOf(room).frame;
+        const Frame separate = Renderer().render(room).frame;
+        room.facePass = FacePass::layered;
+        const Frame layered = Renderer().render(room).frame;
+        EXPECT_LE(compareColor(layered, separate).maxDifference, 1);
+        EXPECT_LT(compareColor(layered, truth).shareOff, 0.04);
+    }
+}
+
+TEST_F(ImageBased, RefusesWhatLayeredFacesCannotHold) {
+    Scene scene = boxRoom({8, 5, 8});
+    RenderRequest room = request(test::planarWall({40, 30}, 80), scene, 64);
+    room.facePass = FacePass::layered;
+    room.samples = 65;
+    EXPECT_THROW(Renderer().render(room), UsageError);
+    room.samples = 1;
+    EXPECT_NO_THROW(Renderer().render(room));
+    scene.points = {0};
+    scene.pointRanges = {{0, 0, 1}};
+    room.scene = std::make_shared<const Scene>(scene);
+    EXPECT_THROW(Renderer().render(room), UsageError);
+    room.facePass = FacePass::separate;
+    EXPECT_NO_THROW(Renderer().render(room));
+}
+
+TEST_F(ImageBased, ADisplayThatShowsNothingIsBackgroundHoweverItIsDrawn) {
+    const auto nothing = std::make_shared<RayFunctionProjection>([](glm::dvec2) { return std::nullopt; });
+    RenderRequest room = request(wallOf(nothing, {8, 8}), boxRoom({8, 5, 8}), 0);
+    for (const FacePass pass : {FacePass::separate, FacePass::layered})
+        for (const SourceLookup lookup : {SourceLookup::pixel, SourceLookup::mesh})
+            for (const SourceKind source : {SourceKind::cube, SourceKind::hemicube, SourceKind::planar}) {
+                room.facePass = pass, room.lookup = lookup, room.source = source;
+                const RenderResult result = Renderer().render(room);
+                EXPECT_EQ(result.stats.faces, 0);
+                for (const float value : result.frame.texels) ASSERT_EQ(value, 0);
+            }
+}
+
+TEST_F(ImageBased, LevelsTakeTheAliasesOutOfASourceThatIsFinerThanItsDisplay) {
+    // Against the average over each pixel. A linear filter of a source with k texels a pixel looks at four of
+    // them; levels look at all.
+    RenderRequest city = request(test::fullCylinderWall({200, 150}), loadScene("city"), 1024);
+    city.samples = 64;
+    const Frame truth = test::referenceOf(city).frame;
+    city.samples = 1;
+    Renderer renderer;
+    const auto psnrDb = [&](SourceFilter filter, int faceSizePx) {
+        city.filter = filter;
+        city.faceSizePx = faceSizePx;
+        return compareColor(renderer.render(city).frame, truth).psnrDb;
+    };
+    const double linear = psnrDb(SourceFilter::linear, 1024), mipmap = psnrDb(SourceFilter::mipmap, 1024);
+    EXPECT_GT(mipmap, linear + 4);
+    // What the pixel covers is not a square.
+    EXPECT_GT(psnrDb(SourceFilter::anisotropic, 1024), mipmap + 1);
+    // A finer source is a supersampled one only where all of its texels count.
+    EXPECT_GT(mipmap, psnrDb(SourceFilter::mipmap, 256) + 0.5);
+    EXPECT_LT(linear, psnrDb(SourceFilter::linear, 256) + 1);
 }
 
 }  // namespace

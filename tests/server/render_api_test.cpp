@@ -47,6 +47,9 @@ TEST(RenderApi, OnlyWallAndSceneAreNeeded) {
     EXPECT_EQ(request.faceSizePx, 0);
     EXPECT_EQ(request.source, SourceKind::cube);
     EXPECT_EQ(request.filter, SourceFilter::linear);
+    EXPECT_EQ(request.facePass, FacePass::separate);
+    EXPECT_EQ(request.lookup, SourceLookup::pixel);
+    EXPECT_EQ(request.meshStepPx, kDefaultMeshStepPx);
     EXPECT_EQ(request.samples, 1);
     EXPECT_EQ(request.style, Style::textured);
     EXPECT_EQ(request.output, OutputKind::color);
@@ -60,7 +63,7 @@ TEST(RenderApi, EveryFieldIsTaken) {
         "camera": {"position": [1, -2.5, 3e3], "yaw_deg": 90, "pitch_deg": -45, "roll_deg": 180},
         "eye": [0.5, -1, 2],
         "method": "image-based", "engine": "tessellation", "tolerance_px": 0.5, "source": "planar",
-        "filter": "bicubic", "face_size": 64, "samples": 4, "anisotropy": 8,
+        "filter": "bicubic", "faces": "layered", "lookup": "mesh", "mesh_step_px": 32, "face_size": 64, "samples": 4, "anisotropy": 8,
         "style": "unlit", "output_kind": "position", "format": "exr"})");
     EXPECT_EQ(call.scene, "/scenes/model.glb");
     EXPECT_TRUE(call.cameraGiven);
@@ -77,6 +80,9 @@ TEST(RenderApi, EveryFieldIsTaken) {
     EXPECT_EQ(request.faceSizePx, 64);
     EXPECT_EQ(request.source, SourceKind::planar);
     EXPECT_EQ(request.filter, SourceFilter::bicubic);
+    EXPECT_EQ(request.facePass, FacePass::layered);
+    EXPECT_EQ(request.lookup, SourceLookup::mesh);
+    EXPECT_EQ(request.meshStepPx, 32);
     EXPECT_EQ(request.engine, Engine::tessellation);
     EXPECT_EQ(request.anisotropy, 8);
     EXPECT_EQ(request.samples, 4);
@@ -149,7 +155,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"format", json::array()}}, "format: expected a string, found a list"},
         Mistake{{{"frames", 2}},
                 "expected only the keys wall, scene, display, camera, eye, method, engine, tolerance_px, "
-                "source, filter, face_size, samples, anisotropy, style, output_kind, format, found the key "
+                "source, filter, faces, lookup, mesh_step_px, face_size, samples, anisotropy, style, "
+                "output_kind, format, found the key "
                 "\"frames\""}));
 
 class ImpossibleField : public ::testing::TestWithParam<Mistake> {};
@@ -183,8 +190,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"tolerance_px", 0}}, "tolerance_px: expected a number from 0.001 to 100, found 0"},
         Mistake{{{"tolerance_px", 100.1}}, "tolerance_px: expected"},
         Mistake{{{"tolerance_px", -1}}, "tolerance_px: expected"},
-        Mistake{{{"source", "sphere"}}, R"(source: expected cube or planar, found "sphere")"},
-        Mistake{{{"filter", "cubic"}}, R"(filter: expected nearest, linear or bicubic, found "cubic")"},
+        Mistake{{{"source", "sphere"}}, R"(source: expected cube, hemicube or planar, found "sphere")"},
+        Mistake{{{"filter", "cubic"}},
+                R"(filter: expected nearest, linear, bicubic, mipmap or anisotropic, found "cubic")"},
+        Mistake{{{"faces", "six"}}, R"(faces: expected separate or layered, found "six")"},
+        Mistake{{{"lookup", "table"}}, R"(lookup: expected pixel or mesh, found "table")"},
+        Mistake{{{"mesh_step_px", 3}}, "mesh_step_px: expected"},
         Mistake{{{"face_size", -1}}, "face_size: expected"},
         Mistake{{{"face_size", 15}}, "face_size: expected"},
         Mistake{{{"face_size", 8193}}, "face_size: expected"}, Mistake{{{"samples", 0}}, "samples: expected"},
