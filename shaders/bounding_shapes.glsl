@@ -23,6 +23,8 @@ const real kShapeQuarterTurn = 1.57079632679489662;
 // Roundings of single precision in directions and what is made of them.
 const real kShapeRounding = 2e-6;
 const real kShapeNoArea = 1e30;
+// A doubt with which a shape covers the whole disc.
+const real kShapeNowhere = 1e6;
 
 // A triangle cut by planes through the eye: unit directions in order around it, joined by arcs of less than half a
 // turn. Where a cut falls between almost opposite directions, it is known to within `slack` only.
@@ -345,8 +347,10 @@ SHARED_FN ShapeOutline outlineOf(int model, const real c[kRadialTerms], real edg
         real across = length(to - from);
         real along = length(to + from);
         if (across < kShapeRounding) continue;
-        // The arc between almost opposite directions is known as well as their sum; it may be on the other side.
-        if (along < 1.0) slack = max(slack, (0.4 * kShapeRounding + 3.0 * seen.slack) / max(along, 1e-20));
+        // The arc between almost opposite directions is known as well as their sum, or not at all.
+        real doubt = along < 1.0 ? (0.4 * kShapeRounding + 3.0 * seen.slack) / max(along, 1e-20) : 0.0;
+        slack = max(slack, doubt > 0.1 ? kShapeNowhere : doubt);
+        if (doubt > 0.1) continue;
 
         real2 middle = shapePlace(model, c, edge, shapeDirection(from + to));
         outline.area += 0.5 * shapeCross(p, q) + shapeCross(middle - p, q - middle) * (2.0 / 3.0);
