@@ -23,6 +23,8 @@ const real kShapeQuarterTurn = 1.57079632679489662;
 // Roundings of single precision in directions and what is made of them.
 const real kShapeRounding = 2e-6;
 const real kShapeNoArea = 1e30;
+// A doubt with which a shape covers the whole disc.
+const real kShapeNowhere = 1e6;
 
 // A triangle cut by planes through the eye: unit directions in order around it, joined by arcs of less than half a
 // turn. Where a cut falls between almost opposite directions, it is known to within `slack` only.
@@ -211,6 +213,13 @@ SHARED_FN ShapeAzimuths azimuthsOf(SeenPolygon seen) {
     return azimuths;
 }
 
+// Whether the arc from a direction ahead to another comes nearer to the axis at first. Close to the axis z tells little.
+SHARED_FN bool comesNearer(real3 from, real3 to) {
+    real3 across = to - from;
+    real3 away = across + from * (0.5 * dot(across, across));
+    return from.z < -0.5 ? from.x * away.x + from.y * away.y < 0.0 : away.z < 0.0;
+}
+
 // Less than any angle from the axis ahead (or behind) in a polygon that does not contain it, and hardly less.
 SHARED_FN real nearestToAxis(SeenPolygon seen, bool ahead) {
     real nearest = 2.0 * kShapeQuarterTurn;
@@ -224,8 +233,7 @@ SHARED_FN real nearestToAxis(SeenPolygon seen, bool ahead) {
         real atEnds = min(shapeAngle(from), shapeAngle(to));
         nearest = min(nearest, atEnds);
         // Where the arc comes nearer from both ends, its plane's point nearest to the axis is on it.
-        real spread = dot(from, to);
-        if (to.z - from.z * spread < 0.0 && from.z - to.z * spread < 0.0) {
+        if (comesNearer(from, to) && comesNearer(to, from)) {
             real3 normal = cross(from, to);
             real between = atan(abs(normal.z), length(real2(normal.x, normal.y)));
             between -= 0.1 * kShapeRounding / max(length(normal), 1e-20);
@@ -339,8 +347,10 @@ SHARED_FN ShapeOutline outlineOf(int model, const real c[kRadialTerms], real edg
         real across = length(to - from);
         real along = length(to + from);
         if (across < kShapeRounding) continue;
-        // The arc between opposite directions is known as well as their sum.
-        if (along < 1.0) slack = max(slack, 0.2 * kShapeRounding / max(along, 1e-20));
+        // The arc between almost opposite directions is known as well as their sum, or not at all.
+        real doubt = along < 1.0 ? (0.4 * kShapeRounding + 3.0 * seen.slack) / max(along, 1e-20) : 0.0;
+        slack = max(slack, doubt > 0.1 ? kShapeNowhere : doubt);
+        if (doubt > 0.1) continue;
 
         real2 middle = shapePlace(model, c, edge, shapeDirection(from + to));
         outline.area += 0.5 * shapeCross(p, q) + shapeCross(middle - p, q - middle) * (2.0 / 3.0);

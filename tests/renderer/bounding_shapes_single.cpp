@@ -22,9 +22,15 @@ namespace {
 #include "shaders/bounding_shapes.glsl"
 #undef SHARED_FN
 
-test::SingleShape shapeOf(const BoundingTriangles& triangles) {
-    test::SingleShape shape{{}, triangles.before, glm::dvec3(triangles.cut)};
+test::BoundingShape shapeOf(test::ShapeKind kind, const BoundingTriangles& triangles) {
+    test::BoundingShape shape{kind, {}, triangles.before, glm::dvec3(triangles.cut)};
     shape.corners.assign(triangles.corners, triangles.corners + 3 * triangles.count);
+    return shape;
+}
+
+test::BoundingShape shapeOf(const BoundingQuad& quad) {
+    test::BoundingShape shape{test::ShapeKind::quad, {}};
+    shape.corners.assign(quad.corners, quad.corners + 4 * quad.count);
     return shape;
 }
 
@@ -33,22 +39,14 @@ test::SingleShape shapeOf(const BoundingTriangles& triangles) {
 
 namespace curvewall::test {
 
-SingleShape singleTriangleBounds(const SingleLens& lens, float margin, const SingleTriangle& triangle) {
-    return single::shapeOf(single::triangleBounds(lens.model, lens.coefficients.data(), lens.edge, margin,
-                                                  triangle[0], triangle[1], triangle[2]));
-}
-
-SingleShape singleQuadBounds(const SingleLens& lens, float margin, const SingleTriangle& triangle) {
-    const auto quad = single::quadBounds(lens.model, lens.coefficients.data(), lens.edge, margin, triangle[0],
-                                         triangle[1], triangle[2]);
-    SingleShape shape;
-    shape.corners.assign(quad.corners, quad.corners + 4 * quad.count);
-    return shape;
-}
-
-SingleShape singleRingBounds(const SingleLens& lens, float margin, const SingleTriangle& triangle) {
-    return single::shapeOf(single::ringBounds(lens.model, lens.coefficients.data(), lens.edge, margin,
-                                              triangle[0], triangle[1], triangle[2]));
+BoundingShape boundsInSingle(ShapeKind kind, const SingleLens& lens, float margin,
+                             const std::array<glm::vec3, 3>& triangle) {
+    const auto& [a, b, c] = triangle;
+    const float* terms = lens.coefficients.data();
+    if (kind == ShapeKind::quad)
+        return single::shapeOf(single::quadBounds(lens.model, terms, lens.edge, margin, a, b, c));
+    const auto bounds = kind == ShapeKind::ring ? single::ringBounds : single::triangleBounds;
+    return single::shapeOf(kind, bounds(lens.model, terms, lens.edge, margin, a, b, c));
 }
 
 }  // namespace curvewall::test
