@@ -119,7 +119,9 @@ TEST_P(EveryLens, DepthIsTheDistanceToThePosition) {
         const glm::vec3 shown(position.texels[3 * i], position.texels[3 * i + 1], position.texels[3 * i + 2]);
         const glm::vec3 truth(expected.texels[3 * i], expected.texels[3 * i + 1], expected.texels[3 * i + 2]);
         ASSERT_EQ(std::isnan(shown.x), std::isinf(depth.texels[i]));
-        if (!std::isnan(shown.x)) ASSERT_NEAR(depth.texels[i], glm::length(shown), 1e-6 * glm::length(shown));
+        if (!std::isnan(shown.x)) {
+            ASSERT_NEAR(depth.texels[i], glm::length(shown), 1e-6 * glm::length(shown));
+        }
         off += std::isnan(shown.x) != std::isnan(truth.x) ||
                glm::distance(shown, truth) > 1e-3f * glm::length(truth);
     }
