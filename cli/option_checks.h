@@ -7,7 +7,8 @@ namespace curvewall {
 
 // Ranges as in renderer/request_limits.h. CLI11's own range check lets NaN pass.
 std::string checkTolerance(std::string& text);
-std::string checkFaceSize(std::string& text);  // 0 or a size
+std::string checkTessellation(std::string& text);  // 0 or a length
+std::string checkFaceSize(std::string& text);      // 0 or a size
 
 // Throws std::runtime_error unless the folder that `path` names a file in is there: before the work, not
 // after it.

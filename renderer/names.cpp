@@ -12,8 +12,10 @@ struct Named {
     std::string_view name;
 };
 
-constexpr Named<Method> kMethods[] = {
-    {Method::piecewise, "piecewise"}, {Method::imageBased, "image-based"}, {Method::reference, "reference"}};
+constexpr Named<Method> kMethods[] = {{Method::piecewise, "piecewise"},
+                                      {Method::imageBased, "image-based"},
+                                      {Method::vertexWarp, "vertex-warp"},
+                                      {Method::reference, "reference"}};
 constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},
                                       {Engine::geometry, "geometry"},
                                       {Engine::tessellation, "tessellation"},

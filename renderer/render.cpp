@@ -4,6 +4,7 @@
 #include "renderer/methods/image_based_method.h"
 #include "renderer/methods/piecewise_method.h"
 #include "renderer/methods/reference_method.h"
+#include "renderer/methods/vertex_warp_method.h"
 
 #include <sys/resource.h>
 
@@ -35,6 +36,7 @@ struct Renderer::Impl {
     RasterResources resources;
     PiecewiseMethod piecewise{resources};
     ImageBasedMethod imageBased{resources};
+    VertexWarpMethod vertexWarp{resources};
     ReferenceMethod reference;
 };
 
@@ -60,6 +62,9 @@ RenderResult Renderer::render(const RenderRequest& asked) {
             break;
         case Method::imageBased:
             result = impl_->imageBased.render(request, display);
+            break;
+        case Method::vertexWarp:
+            result = impl_->vertexWarp.render(request, display);
             break;
         case Method::reference:
             result = impl_->reference.render(request, display);

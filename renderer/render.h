@@ -19,7 +19,7 @@ namespace curvewall {
 
 struct FittedPieces;
 
-enum class Method { piecewise, imageBased, reference };
+enum class Method { piecewise, imageBased, vertexWarp, reference };
 
 struct RenderRequest {
     WallPtr wall;
@@ -35,7 +35,9 @@ struct RenderRequest {
     SourceKind source = SourceKind::cube;        // image-based, as are the next two
     int faceSizePx = 0;                          // 0: from the display's peak pixel density
     SourceFilter filter = SourceFilter::linear;  // of colour; other outputs take the nearest texel
-    int samples = 1;                             // reference: rays per pixel; raster methods: MSAA samples
+    // vertex-warp: how long edges may be on the screen, roughly; 0: triangles stay as they are.
+    double tessellationPx = 0;
+    int samples = 1;  // reference: rays per pixel; raster methods: MSAA samples
     // Of textures, raster methods: 1 to kMostAnisotropy. Without one what the GL at hand does well: as much
     // as it can on hardware, 1 on a software renderer.
     std::optional<int> anisotropy{};

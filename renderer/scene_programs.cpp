@@ -1,5 +1,6 @@
 #include "renderer/scene_programs.h"
 
+#include "renderer/gpu_pieces.h"
 #include "renderer/pair_drawing.h"
 
 #include <algorithm>
@@ -25,14 +26,29 @@ std::string outputDefine(OutputKind output) {
 }
 
 GlProgram sceneProgram(CornerSource source, const std::vector<std::string>& defines) {
-    if (source != CornerSource::tessellated)
-        return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
-    return makeProgram({{GL_VERTEX_SHADER, "replicate.vert"},
-                        {GL_TESS_CONTROL_SHADER, "replicate.tesc"},
-                        {GL_TESS_EVALUATION_SHADER, "replicate.tese"},
-                        {GL_GEOMETRY_SHADER, "replicate.geom"},
-                        {GL_FRAGMENT_SHADER, "scene.frag"}},
-                       defines);
+    switch (source) {
+        case CornerSource::plain:
+        case CornerSource::loop:
+        case CornerSource::pairs:
+            break;
+        case CornerSource::tessellated:
+            return makeProgram({{GL_VERTEX_SHADER, "replicate.vert"},
+                                {GL_TESS_CONTROL_SHADER, "replicate.tesc"},
+                                {GL_TESS_EVALUATION_SHADER, "replicate.tese"},
+                                {GL_GEOMETRY_SHADER, "replicate.geom"},
+                                {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+        case CornerSource::warped:
+            return makeProgram({{GL_VERTEX_SHADER, "warp.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+        case CornerSource::warpedTessellated:
+            return makeProgram({{GL_VERTEX_SHADER, "warp.vert"},
+                                {GL_TESS_CONTROL_SHADER, "warp.tesc"},
+                                {GL_TESS_EVALUATION_SHADER, "warp.tese"},
+                                {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+    }
+    return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
 }
 
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
@@ -47,12 +63,18 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         const auto defineIf = [&](bool condition, const char* name) {
             if (condition) defines.emplace_back(name);
         };
-        const bool pairs = path.source == CornerSource::pairs;
+        defines.insert(defines.end(), path.screenMap.begin(), path.screenMap.end());
+        const bool warped =
+            path.source == CornerSource::warped || path.source == CornerSource::warpedTessellated;
+        const bool pairs = warped || path.source == CornerSource::pairs;
         defineIf(pairs, "PAIRS");
+        defineIf(path.source == CornerSource::warpedTessellated, "TESSELLATED");
         if (pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.source == CornerSource::loop, "LOOP");
         const bool tessellated = path.source == CornerSource::tessellated;
-        const bool owned = path.singleCover || (variant.blended && path.source != CornerSource::plain);
+        // Parts of a warped triangle share no pixel.
+        const bool sharesPixels = path.source != CornerSource::plain && !warped;
+        const bool owned = path.singleCover || (variant.blended && sharesPixels);
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
         defineIf(variant.blended, "BLENDED");
@@ -99,8 +121,8 @@ std::vector<std::string> ScenePrograms::attributes() const {
     return fetched;
 }
 
-void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const {
-    const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(pieces.sizePx);
+void ScenePrograms::setFrame(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const {
+    const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(sizePx);
     const glm::vec3 sampling(pass.shiftPx, std::exp2(pass.lodBias));
     for (const auto& [variant, entry] : programs_) {
         const GLuint program = entry.program.id();
@@ -109,9 +131,12 @@ void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, con
         glProgramUniform1f(program, 9, kNearFraction);
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
         if (entry.owned) glProgramUniform1i(program, 17, pass.firstSample);
-        if (entry.checksFacing) glProgramUniform1i(program, 12, pieces.frontIsClockwise.front());
         if (drawsEdges_) glProgramUniform3fv(program, 22, 1, &sampling[0]);
     }
+}
+
+void ScenePrograms::setFacing(bool frontIsClockwise) const {
+    for (const auto& [variant, entry] : programs_) setFacing(entry.program.id(), frontIsClockwise);
 }
 
 void ScenePrograms::setFacing(GLuint program, bool frontIsClockwise) const {

@@ -3,7 +3,6 @@
 
 #include "renderer/frame_pass.h"
 #include "renderer/gl/program.h"
-#include "renderer/gpu_pieces.h"
 #include "renderer/look.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene_view.h"
@@ -25,10 +24,12 @@ std::string outputDefine(OutputKind output);
 
 // How the corners reach the shader.
 enum class CornerSource {
-    plain,        // plain vertices, one piece for all
-    loop,         // plain vertices, the piece is a uniform
-    pairs,        // pulled by (triangle, piece) pairs
-    tessellated,  // triangles by number, replicated on their way
+    plain,              // plain vertices, one piece for all
+    loop,               // plain vertices, the piece is a uniform
+    pairs,              // pulled by (triangle, piece) pairs
+    tessellated,        // triangles by number, replicated on their way
+    warped,             // pulled by (triangle, part) pairs, each vertex moved to where the display shows it
+    warpedTessellated,  // the same, with more vertices in between
 };
 
 struct GeometryPath {
@@ -37,6 +38,7 @@ struct GeometryPath {
     bool singleCover = false;  // each pixel is its owner's alone; blended materials have that anyway
     int ownerSamples = 1;      // owners that a pixel has in one pass
     bool closesHoles = false;  // pixels without an owner are closed before anything is drawn
+    std::vector<std::string> screenMap{};  // of warped corners: see renderer/screen_map.h
 
     bool operator==(const GeometryPath&) const = default;
 };
@@ -60,11 +62,12 @@ public:
     };
     Chosen choose(const Material& material) const;
 
-    // Sets what is the same for all materials of a pass.
-    void setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const;
+    // Sets what is the same for all materials of a pass. A plain draw also needs setFacing().
+    void setFrame(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const;
 
-    // For one of its programs: how triangles seen from the front turn on the screen.
+    // How triangles seen from the front turn on the screen, for one of its programs or for all.
     void setFacing(GLuint program, bool frontIsClockwise) const;
+    void setFacing(bool frontIsClockwise) const;
 
     // Corners are pulled from the scene's buffers, for a plain draw too: lines need to know whose they are.
     bool drawsEdges() const { return drawsEdges_; }

@@ -38,6 +38,7 @@ nlohmann::json toJson(const RenderStats& stats) {
         json["source"] = stats.source;
         json["filter"] = stats.filter;
     }
+    if (stats.method == "vertex-warp") json["tessellation_px"] = stats.tessellationPx;
     return json;
 }
 

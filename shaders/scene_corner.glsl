@@ -40,11 +40,7 @@ void land(uint piece) {
 layout(std430, binding = 3) readonly buffer Normals { uint normals[]; };
 layout(std430, binding = 4) readonly buffer Uvs { vec2 uvs[]; };
 
-// Normals are packed as signed 10-bit integers, x lowest.
-vec3 unpackNormal(uint bits) {
-    ivec3 parts = ivec3(int(bits << 22u) >> 22, int(bits << 12u) >> 22, int(bits << 2u) >> 22);
-    return vec3(parts) / 511.0;
-}
+#include "packed_normal.glsl"
 
 // The highest bit beside the triangle tells that it is seen from behind.
 void sendCorner(uint triangleAndFacing, uint corner, uint piece) {

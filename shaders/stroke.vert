@@ -34,10 +34,7 @@ layout(location = 7) flat out vec3 fromNormal;
 layout(location = 8) flat out vec3 toNormal;
 #endif
 
-vec3 unpackNormal(uint bits) {
-    ivec3 parts = ivec3(int(bits << 22u) >> 22, int(bits << 12u) >> 22, int(bits << 2u) >> 22);
-    return vec3(parts) / 511.0;
-}
+#include "packed_normal.glsl"
 
 // A part of the way from one end of a stroke to the other.
 struct Part {
