@@ -6,6 +6,9 @@
 const uint DENOMINATOR = 32768u;      // of a corner's weights within its triangle
 const uint IS_DIVIDED = 0x40000000u;  // a part that is not the whole triangle, beside its turn of the map
 const int TURN_BIAS = 8;
+// Of an edge by the tessellator: a part with one long and one short edge gets as many triangles as one with three long
+// edges, which costs more than to divide it first.
+const float MOST_DIVISIONS = 8.0;
 
 bool comesBefore(vec3 a, vec3 b) {
     if (a.x != b.x) return a.x < b.x;

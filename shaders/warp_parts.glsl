@@ -9,7 +9,6 @@
 const uint ALL_PIECES = 0xffffffffu;
 const uint SEEN_FROM_BEHIND = 0x80000000u;  // a triangle's facing, beside its index
 const float WIDEST_COSINE = 0.70710678;
-const float MOST_LEVEL = 64.0;  // OpenGL promises that much
 
 struct RayTriangle {
     vec3 a, b, c;  // from the eye to the corners
@@ -34,7 +33,7 @@ bool isLong(vec3 a, vec3 b, vec2 pxA, vec2 pxMiddle, vec2 pxB) {
     if (askedPx == 0.0) return false;
     vec2 lengthsPx = edgeLengthsPx(pxA, pxMiddle, pxB);
     // Equal steps must be about equally long.
-    return lengthsPx.x > MOST_LEVEL * askedPx || (lengthsPx.x > 4.0 * lengthsPx.y && lengthsPx.x > 2.0 * askedPx);
+    return lengthsPx.x > MOST_DIVISIONS * askedPx || (lengthsPx.x > 4.0 * lengthsPx.y && lengthsPx.x > 2.0 * askedPx);
 #endif
 }
 
