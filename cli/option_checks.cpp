@@ -19,6 +19,13 @@ std::string checkTolerance(std::string& text) {
                        kMostTolerancePx, text);
 }
 
+std::string checkTessellation(std::string& text) {
+    const auto px = numberFrom<double>(text);
+    if (px && (*px == 0 || (*px >= kLeastTessellationPx && *px <= kMostTessellationPx))) return "";
+    return fmt::format("expected 0 or a number of pixels from {} to {}, found {}", kLeastTessellationPx,
+                       kMostTessellationPx, text);
+}
+
 std::string checkFaceSize(std::string& text) {
     const auto px = numberFrom<int>(text);
     if (px && (*px == 0 || (*px >= kLeastFacePx && *px <= kMostFacePx))) return "";

@@ -10,7 +10,8 @@ namespace curvewall {
 
 // Ranges as in renderer/request_limits.h. CLI11's own range check lets NaN pass.
 std::string checkTolerance(std::string& text);
-std::string checkFaceSize(std::string& text);  // 0 or a size
+std::string checkTessellation(std::string& text);  // 0 or a length
+std::string checkFaceSize(std::string& text);      // 0 or a size
 
 // Two whole numbers with an x between them, from `least` to kMostPx; nothing for an empty text. Throws
 // UsageError that names the option and what was `expected`.

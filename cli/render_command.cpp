@@ -30,6 +30,7 @@ struct RenderCommand {
         method = "piecewise", engine = "compute", source = "cube", filter = "linear", faces = "separate",
         lookup = "pixel", bounds = "triangle", style = "textured", outputKind = "color", out, stats;
     double tolerancePx = kDefaultTolerancePx;
+    double tessellationPx = 0;
     int samples = 1, faceSizePx = 0, meshStepPx = kDefaultMeshStepPx, frames = 1;
     std::optional<int> anisotropy;
 };
@@ -41,6 +42,7 @@ RenderRequest requestOf(const RenderCommand& command) {
     request.style = styleFromName(command.style).value();
     request.output = outputKindFromName(command.outputKind).value();
     request.tolerancePx = command.tolerancePx;
+    request.tessellationPx = command.tessellationPx;
     request.samples = command.samples;
     request.anisotropy = command.anisotropy;
     request.source = sourceFromName(command.source).value();
@@ -77,6 +79,8 @@ std::string summaryOf(const RenderStats& stats) {
                            stats.faces == 1 ? "picture" : "pictures", stats.faceSizePx,
                            stats.geometricError.maxPx);
     if (!stats.bounds.empty()) return fmt::format("bounded by a {}", stats.bounds);
+    if (stats.method == "vertex-warp")
+        return fmt::format("{} parts, error {:.4f} px at most", stats.pairs, stats.geometricError.maxPx);
     return fmt::format("{} rays a pixel", stats.samples);
 }
 
@@ -135,6 +139,11 @@ void addRenderCommand(CLI::App& app) {
         ->capture_default_str();
     render->add_option("--tolerance", command->tolerancePx, "Largest geometric error of piecewise, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
+        ->capture_default_str();
+    render
+        ->add_option("--tessellation", command->tessellationPx,
+                     "How long edges of vertex-warp's triangles may be on the screen, pixels; 0: as they are")
+        ->check(CLI::Validator(checkTessellation, ""))
         ->capture_default_str();
     render->add_option("--samples", command->samples, "Samples a pixel, or a texel of image-based")
         ->check(CLI::Range(1, kMostSamples))

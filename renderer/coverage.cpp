@@ -28,6 +28,13 @@ GlProgram computeProgram(std::string_view file, std::vector<std::string> defines
     return makeProgram({{GL_COMPUTE_SHADER, file}}, defines);
 }
 
+constexpr size_t kPartBytes = sizeof(glm::uvec4);
+
+std::vector<std::string> withWarp(std::vector<std::string> screenMap) {
+    screenMap.emplace_back("WARP");
+    return screenMap;
+}
+
 constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
 
 void dispatch(const GlProgram& program, uint32_t groups, GLbitfield barrier = kResults) {
@@ -74,16 +81,19 @@ std::pair<ScenePart, ScenePart> ScenePart::halves() const {
             ScenePart(*chunk, firstMeshlet + half, mostMeshlets - half)};
 }
 
-Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs, MeshletLookup lookup)
-    : mark_(computeProgram("meshlets.comp", {"MARK", lookup == MeshletLookup::grid ? "GRID" : "TREE"})),
-      scanMeshlets_(computeProgram("scan.comp", {"MESHLETS"})),
+Coverage::Coverage(std::span<const SceneChunk> chunks, const Shaders& shaders, uint32_t mostPairs)
+    : scanMeshlets_(computeProgram("scan.comp", {"MESHLETS"})),
       gather_(computeProgram("meshlets.comp", {"GATHER"})),
-      count_(computeProgram("coverage.comp", {"COUNT"})),
       scanPairs_(computeProgram("scan.comp", {"PAIRS"})),
-      emit_(computeProgram("coverage.comp", {"EMIT"})),
       commandsProgram_(computeProgram("draw_commands.comp", {"MESHLETS"})),
-      mostPairs_(std::min(mostPairs, mostPairsInBuffer())),
-      lookup_(lookup) {
+      mostPairs_(std::min(mostPairs, mostPairsInBuffer())) {
+    const auto with = [](std::vector<std::string> defines, const char* step) {
+        defines.emplace_back(step);
+        return defines;
+    };
+    mark_ = computeProgram("meshlets.comp", with(shaders.forMeshlets, "MARK"));
+    count_ = computeProgram("coverage.comp", with(shaders.forTriangles, "COUNT"));
+    emit_ = computeProgram("coverage.comp", with(shaders.forTriangles, "EMIT"));
     for (const SceneChunk& chunk : chunks) {
         const uint32_t mostMeshlets = chunk.changes ? chunk.triangleCount : chunk.meshletCount;
         for (uint32_t first = 0; first < mostMeshlets; first += kMostPartMeshlets)
@@ -91,6 +101,19 @@ Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs, Meshl
         capacity_ = std::max(capacity_, 2 * chunk.triangleCount);
     }
     capacity_ = std::min(std::max(capacity_, 1u << 16), mostPairs_);
+}
+
+Coverage::Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs, MeshletLookup lookup)
+    : Coverage(chunks, Shaders{{lookup == MeshletLookup::grid ? "GRID" : "TREE"}, {}}, mostPairs) {
+    lookup_ = lookup;
+    allocate();
+}
+
+Coverage::Coverage(std::span<const SceneChunk> chunks, const std::vector<std::string>& screenMap,
+                   uint32_t mostPairs)
+    : Coverage(chunks, Shaders{{"WARP"}, withWarp(screenMap)},
+               std::min(mostPairs, mostPairsInBuffer() / static_cast<uint32_t>(kPartBytes / kPairBytes))) {
+    findsParts_ = true;
     allocate();
 }
 
@@ -123,6 +146,7 @@ void Coverage::allocate() {
     groupPairs_ = makeBuffer(nullptr, sizeof(uint32_t) * (meshlets + 1));
     found_ = makeBuffer(nullptr, sizeof(glm::uvec4) * kGroupSize * meshlets);
     pairs_ = makeBuffer(nullptr, kPairBytes * capacity_);
+    if (findsParts_) triangleParts_ = makeBuffer(nullptr, kPartBytes * capacity_);
     commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
     constexpr GLbitfield kMapping =
         GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
@@ -140,6 +164,26 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     const bool byGrid = lookup_ == MeshletLookup::grid;
     bindForCoverage(*part.chunk, pieces);
     if (byGrid) bindStorage(2, pieces.nodeGrid);
+    bindForPart(part);
+    setForPart(index, view);
+    if (!byGrid) glProgramUniform1ui(mark_.id(), 4, pieces.nodeCount);
+    for (const GlProgram* program : {&count_, &emit_}) setForCoverage(program->id(), pieces, sampleGrid);
+    run(
+        part, [&] { bindStorage(2, pieces.nodes); }, timer);
+}
+
+void Coverage::findParts(size_t index, const SceneView& view, StageTimer* timer) {
+    const ScenePart& part = parts_[index];
+    bindStorage(0, part.chunk->positions);
+    bindStorage(1, part.chunk->corners);
+    bindStorage(8, triangleParts_);
+    bindForPart(part);
+    setForPart(index, view);
+    run(
+        part, [] {}, timer);
+}
+
+void Coverage::bindForPart(const ScenePart& part) {
     bindStorage(3, part.chunk->meshlets);
     bindStorage(5, meshletNodes_);
     bindStorage(6, pairs_);
@@ -151,38 +195,37 @@ void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView&
     bindStorage(14, commands_);
     bindStorage(15, part.rangeBuffer);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch_.id());
+}
 
-    const uint32_t meshletGroups = groupsFor(part.meshletCount);
+void Coverage::setForPart(size_t index, const SceneView& view) {
+    const ScenePart& part = parts_[index];
     for (const GlProgram* program : {&mark_, &gather_, &count_, &emit_})
         glProgramUniform1ui(program->id(), 3, part.firstMeshlet);
     for (const GlProgram* program : {&mark_, &gather_})
         glProgramUniform1ui(program->id(), 5, part.meshletCount);
-    glProgramUniform1ui(scanMeshlets_.id(), 6, meshletGroups);
-    setView(mark_.id(), view);
-    if (!byGrid) glProgramUniform1ui(mark_.id(), 4, pieces.nodeCount);
-    for (const GlProgram* program : {&count_, &emit_}) {
-        setView(program->id(), view);
-        setForCoverage(program->id(), pieces, sampleGrid);
-    }
-    glProgramUniform1ui(emit_.id(), 5, capacity_);
+    glProgramUniform1ui(scanMeshlets_.id(), 6, groupsFor(part.meshletCount));
+    for (const GlProgram* program : {&mark_, &count_, &emit_}) setView(program->id(), view);
     for (const GlProgram* program : {&scanMeshlets_, &scanPairs_})
         glProgramUniform1ui(program->id(), 7, static_cast<GLuint>(index));
-    const auto ranges = static_cast<uint32_t>(part.ranges.size());
-    glProgramUniform1ui(commandsProgram_.id(), 5, capacity_);
-    glProgramUniform1ui(commandsProgram_.id(), 8, ranges);
+    for (const GlProgram* program : {&emit_, &commandsProgram_})
+        glProgramUniform1ui(program->id(), 5, capacity_);
+    glProgramUniform1ui(commandsProgram_.id(), 8, static_cast<uint32_t>(part.ranges.size()));
+}
 
+void Coverage::run(const ScenePart& part, const BindForTriangles& bindForTriangles, StageTimer* timer) {
+    const uint32_t meshletGroups = groupsFor(part.meshletCount);
     if (timer) timer->begin("meshlets");
     bindStorage(4, groupSeen_);
     dispatch(mark_, meshletGroups);
     dispatch(scanMeshlets_, 1, kResults | GL_COMMAND_BARRIER_BIT);
     dispatch(gather_, meshletGroups);
     if (timer) timer->begin("triangles");
-    bindStorage(2, pieces.nodes);
+    bindForTriangles();
     bindStorage(4, groupPairs_);
     dispatchIndirect(count_);
     dispatch(scanPairs_, 1);
     dispatchIndirect(emit_);
-    dispatch(commandsProgram_, groupsFor(ranges),
+    dispatch(commandsProgram_, groupsFor(static_cast<uint32_t>(part.ranges.size())),
              kResults | GL_COMMAND_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
 }
 
@@ -205,7 +248,7 @@ FrameOutcome Coverage::finishFrame() {
 size_t Coverage::memoryBytes() const {
     size_t bytes = 0;
     for (const GlBuffer* buffer : {&groupSeen_, &meshletNodes_, &seen_, &placeOf_, &dispatch_, &groupPairs_,
-                                   &found_, &pairs_, &commands_, &totalsBuffer_})
+                                   &found_, &pairs_, &triangleParts_, &commands_, &totalsBuffer_})
         bytes += sizeOf(*buffer);
     for (const ScenePart& part : parts_) bytes += sizeOf(part.rangeBuffer);
     return bytes;

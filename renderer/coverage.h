@@ -9,7 +9,9 @@
 #include "renderer/scene_view.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,10 @@ public:
     explicit Coverage(std::span<const SceneChunk> chunks, uint32_t mostPairs = ~0u,
                       MeshletLookup lookup = MeshletLookup::grid);
 
+    // Of parts of triangles for vertex-warp instead of pieces, on displays of this map (see screen_map.h).
+    Coverage(std::span<const SceneChunk> chunks, const std::vector<std::string>& screenMap,
+             uint32_t mostPairs = ~0u);
+
     const std::vector<ScenePart>& parts() const { return parts_; }
 
     // Before the parts of a frame. Buffers grow here where a chunk that changes has outgrown them.
@@ -52,7 +58,10 @@ public:
     // points of `sampleGrid` (as sampleGridOf() gives it) is left out; zeros leave nothing out.
     void findPairs(size_t part, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
                    StageTimer* timer = nullptr);
+    // The same for parts of triangles, through the map that is bound.
+    void findParts(size_t part, const SceneView& view, StageTimer* timer = nullptr);
     const GlBuffer& pairs() const { return pairs_; }
+    const GlBuffer& triangleParts() const { return triangleParts_; }  // the corners of each pair's part
     // Of each meshlet of the part: the first of its nodes and the one after the last.
     const GlBuffer& meshletNodes() const { return meshletNodes_; }
     const GlBuffer& commands() const { return commands_; }
@@ -62,19 +71,30 @@ public:
     size_t memoryBytes() const;
 
 private:
+    struct Shaders {
+        std::vector<std::string> forMeshlets, forTriangles;  // what they are compiled with
+    };
+    // Lets the shaders that look at triangles read what meshlets did not need.
+    using BindForTriangles = std::function<void()>;
+
+    Coverage(std::span<const SceneChunk> chunks, const Shaders& shaders, uint32_t mostPairs);
     void allocate();
+    void bindForPart(const ScenePart& part);
+    void setForPart(size_t part, const SceneView& view);
+    void run(const ScenePart& part, const BindForTriangles& bindForTriangles, StageTimer* timer);
     volatile uint32_t& pairsOf(size_t part) { return totals_[2 * part]; }
     volatile uint32_t& meshletsOf(size_t part) { return totals_[2 * part + 1]; }
 
-    GlProgram mark_, scanMeshlets_, gather_, count_, scanPairs_, emit_, commandsProgram_;
+    GlProgram scanMeshlets_, gather_, scanPairs_, commandsProgram_, mark_, count_, emit_;
     std::vector<ScenePart> parts_;
     uint32_t mostPairs_;
-    MeshletLookup lookup_;
+    MeshletLookup lookup_ = MeshletLookup::grid;
+    bool findsParts_ = false;
     uint32_t capacity_ = 0;  // pairs
     uint32_t meshletCapacity_ = 0;
     size_t rangeCapacity_ = 0;
     GlBuffer groupSeen_, meshletNodes_, seen_, placeOf_, dispatch_;
-    GlBuffer groupPairs_, found_, pairs_, commands_, totalsBuffer_;
+    GlBuffer groupPairs_, found_, pairs_, triangleParts_, commands_, totalsBuffer_;
     volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
 };
 

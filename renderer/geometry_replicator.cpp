@@ -138,7 +138,8 @@ void GeometryReplicator::draw(const PieceDraw& draw) {
         makeCommands(part);
         draw.timer.begin("surfaces");
         glBindVertexArray(emptyVertexArray_.id());
-        drawPairs(*part.chunk, part.ranges, pairs_, commands_, draw);
+        bindStorage(2, draw.pieces.pieces);
+        drawPairs(*part.chunk, part.ranges, pairs_, commands_, draw.materials);
     }
 }
 

@@ -15,6 +15,7 @@ struct Named {
 constexpr Named<Method> kMethods[] = {{Method::piecewise, "piecewise"},
                                       {Method::imageBased, "image-based"},
                                       {Method::boundedRaycast, "bounded-raycast"},
+                                      {Method::vertexWarp, "vertex-warp"},
                                       {Method::reference, "reference"},
                                       {Method::automatic, "auto"}};
 constexpr Named<Engine> kEngines[] = {{Engine::compute, "compute"},

@@ -12,16 +12,15 @@ uint32_t mostPairsInBuffer() {
 }
 
 void drawPairs(const SceneChunk& chunk, std::span<const ChunkRange> ranges, const GlBuffer& pairs,
-               const GlBuffer& commands, const PieceDraw& draw) {
+               const GlBuffer& commands, const MaterialBinder& materials, GLenum primitive) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
-    draw.materials.bindPulled(chunk);
-    bindStorage(2, draw.pieces.pieces);
+    materials.bindPulled(chunk);
     bindStorage(5, commands);
     bindStorage(6, pairs);
     for (size_t r = 0; r < ranges.size(); ++r) {
-        const GLuint program = draw.materials.bind(ranges[r].material);
+        const GLuint program = materials.bind(ranges[r].material);
         glProgramUniform1ui(program, 13, static_cast<GLuint>(r));
-        glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(kDrawCommandBytes * r));
+        glDrawArraysIndirect(primitive, reinterpret_cast<const void*>(kDrawCommandBytes * r));
     }
 }
 

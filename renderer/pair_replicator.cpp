@@ -15,7 +15,8 @@ void PairReplicator::draw(const PieceDraw& draw) {
         coverage_.findPairs(i, draw.pieces, draw.view, sampleGridOf(draw.pieces, draw.pass), &draw.timer);
         draw.timer.begin("surfaces");
         glBindVertexArray(emptyVertexArray_.id());
-        drawPairs(*part.chunk, part.ranges, coverage_.pairs(), coverage_.commands(), draw);
+        bindStorage(2, draw.pieces.pieces);
+        drawPairs(*part.chunk, part.ranges, coverage_.pairs(), coverage_.commands(), draw.materials);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "renderer/piecewise.h"
 
 #include "renderer/blended_triangles.h"
+#include "renderer/holes.h"
 
 #include <utility>
 
@@ -73,9 +74,11 @@ PiecewiseRenderer::PiecewiseRenderer(std::shared_ptr<const ScenePrograms> progra
 void PiecewiseRenderer::record(const SceneView& view, const FramePass& pass) {
     if (programs_->forHoles()) {
         timer_.begin("holes");
-        closeHoles();
+        enableClipPlanes(0);
+        closeHoles(programs_->forHoles(), *owners_.ofPixels, pieces_.sizePx, emptyVertexArray_);
     }
-    programs_->setFrame(view, pieces_, pass);
+    programs_->setFrame(view, pieces_.sizePx, pass);
+    programs_->setFacing(pieces_.frontIsClockwise.front());
     for (const GlSampler& sampler : scene_.samplers)
         glSamplerParameterf(sampler.id(), GL_TEXTURE_LOD_BIAS, pass.lodBias);
     const MaterialBinder materials{scene_, *programs_};
@@ -104,20 +107,6 @@ void PiecewiseRenderer::prepareSurfaces() const {
     enableClipPlanes(pieces_.clipPlanes);
     const GpuOwners* owners = owners_.ofSamples ? owners_.ofSamples : owners_.ofPixels;
     if (owners) glBindTextureUnit(1, owners->texture.id());
-}
-
-// Nothing is nearer than a hole, and unlike a fragment that is discarded it leaves the early depth test on.
-void PiecewiseRenderer::closeHoles() const {
-    enableClipPlanes(0);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glUseProgram(programs_->forHoles().id());
-    glBindTextureUnit(1, owners_.ofPixels->texture.id());
-    glBindVertexArray(emptyVertexArray_.id());
-    bindStorage(0, owners_.ofPixels->holeTiles);
-    glProgramUniform2f(programs_->forHoles().id(), 0, static_cast<float>(pieces_.sizePx.x),
-                       static_cast<float>(pieces_.sizePx.y));
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, owners_.ofPixels->holeTileCount);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void PiecewiseRenderer::recordBlended(const PieceDraw& draw) {

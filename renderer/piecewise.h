@@ -66,7 +66,6 @@ public:
     std::vector<StageTime> takeStageTimes() { return timer_.take(); }
 
 private:
-    void closeHoles() const;
     void prepareSurfaces() const;
     void recordBlended(const PieceDraw& draw);
     OutputKind output() const { return programs_->look().output; }

@@ -5,10 +5,13 @@
 #include "renderer/piecewise.h"
 #include "renderer/prepared_images.h"
 #include "renderer/recently_used.h"
+#include "renderer/vertex_warp.h"
 
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace curvewall {
 
@@ -42,6 +45,20 @@ struct ImageKey {
     bool operator==(const ImageKey&) const = default;
 };
 
+// A renderer with what it refers to.
+struct PreparedWarp {
+    std::shared_ptr<const GpuWarp> warp;
+    std::shared_ptr<SceneParts> parts;
+    VertexWarpRenderer renderer;
+};
+
+struct WarpDrawKey {
+    std::shared_ptr<const GpuWarp> warp;
+    Style style;
+    OutputKind output;
+    bool operator==(const WarpDrawKey&) const = default;
+};
+
 struct ProgramsKey {
     Style style;
     OutputKind output;
@@ -69,6 +86,8 @@ struct PreparedScene {
     std::map<Engine, SceneReplicators> replicators;
     RecentlyUsed<DrawKey, PreparedDraw> draws{16};
     RecentlyUsed<ImageKey, ImageBasedRenderer> images{8};
+    RecentlyUsed<std::vector<std::string>, SceneParts> parts{4};  // by what displays' maps are
+    RecentlyUsed<WarpDrawKey, PreparedWarp> warps{8};
     RecentlyUsed<ProgramsKey, const ScenePrograms> programs{16};
     RecentlyUsed<StrokesKey, const StrokePrograms> strokePrograms{8};
 };

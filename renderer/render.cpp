@@ -6,6 +6,7 @@
 #include "renderer/methods/image_based_method.h"
 #include "renderer/methods/piecewise_method.h"
 #include "renderer/methods/reference_method.h"
+#include "renderer/methods/vertex_warp_method.h"
 
 #include <sys/resource.h>
 
@@ -38,6 +39,7 @@ struct Renderer::Impl {
     PiecewiseMethod piecewise{resources};
     ImageBasedMethod imageBased{resources};
     BoundedRaycastMethod boundedRaycast{resources};
+    VertexWarpMethod vertexWarp{resources};
     ReferenceMethod reference;
     AutomaticMethod automatic;
 
@@ -52,6 +54,8 @@ RenderResult Renderer::Impl::render(const RenderRequest& request, const Display&
             return imageBased.render(request, display);
         case Method::boundedRaycast:
             return boundedRaycast.render(request, display);
+        case Method::vertexWarp:
+            return vertexWarp.render(request, display);
         case Method::reference:
             return reference.render(request, display);
         case Method::automatic: {

@@ -26,6 +26,7 @@ enum class Method {
     piecewise,
     imageBased,
     boundedRaycast,
+    vertexWarp,
     reference,
     automatic,  // the fastest of those that meet the tolerance, but for the reference
 };
@@ -48,6 +49,8 @@ struct RenderRequest {
     SourceLookup lookup = SourceLookup::pixel;
     int meshStepPx = kDefaultMeshStepPx;             // of SourceLookup::mesh
     BoundingShape bounds = BoundingShape::triangle;  // bounded-raycast
+    // vertex-warp: how long edges may be on the screen, roughly; 0: triangles stay as they are.
+    double tessellationPx = 0;
     int samples = 1;  // reference: rays per pixel; raster methods: MSAA samples
     // Of textures, raster methods: 1 to kMostAnisotropy. Without one what the GL at hand does well: as much
     // as it can on hardware, 1 on a software renderer.

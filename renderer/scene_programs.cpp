@@ -1,5 +1,6 @@
 #include "renderer/scene_programs.h"
 
+#include "renderer/gpu_pieces.h"
 #include "renderer/pair_drawing.h"
 
 #include <glm/common.hpp>
@@ -64,24 +65,39 @@ std::string outputDefine(OutputKind output) {
 }
 
 GlProgram sceneProgram(CornerSource source, const std::vector<std::string>& defines) {
-    if (source == CornerSource::layered)
-        return makeProgram({{GL_VERTEX_SHADER, "scene.vert"},
-                            {GL_GEOMETRY_SHADER, "layered.geom"},
-                            {GL_FRAGMENT_SHADER, "scene.frag"}},
-                           defines);
-    if (source == CornerSource::bounded)
-        return makeProgram({{GL_VERTEX_SHADER, "bounded.vert"},
-                            {GL_GEOMETRY_SHADER, "bounded.geom"},
-                            {GL_FRAGMENT_SHADER, "bounded.frag"}},
-                           defines);
-    if (source != CornerSource::tessellated)
-        return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
-    return makeProgram({{GL_VERTEX_SHADER, "replicate.vert"},
-                        {GL_TESS_CONTROL_SHADER, "replicate.tesc"},
-                        {GL_TESS_EVALUATION_SHADER, "replicate.tese"},
-                        {GL_GEOMETRY_SHADER, "replicate.geom"},
-                        {GL_FRAGMENT_SHADER, "scene.frag"}},
-                       defines);
+    switch (source) {
+        case CornerSource::plain:
+        case CornerSource::loop:
+        case CornerSource::pairs:
+            break;
+        case CornerSource::layered:
+            return makeProgram({{GL_VERTEX_SHADER, "scene.vert"},
+                                {GL_GEOMETRY_SHADER, "layered.geom"},
+                                {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+        case CornerSource::bounded:
+            return makeProgram({{GL_VERTEX_SHADER, "bounded.vert"},
+                                {GL_GEOMETRY_SHADER, "bounded.geom"},
+                                {GL_FRAGMENT_SHADER, "bounded.frag"}},
+                               defines);
+        case CornerSource::tessellated:
+            return makeProgram({{GL_VERTEX_SHADER, "replicate.vert"},
+                                {GL_TESS_CONTROL_SHADER, "replicate.tesc"},
+                                {GL_TESS_EVALUATION_SHADER, "replicate.tese"},
+                                {GL_GEOMETRY_SHADER, "replicate.geom"},
+                                {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+        case CornerSource::warped:
+            return makeProgram({{GL_VERTEX_SHADER, "warp.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+        case CornerSource::warpedTessellated:
+            return makeProgram({{GL_VERTEX_SHADER, "warp.vert"},
+                                {GL_TESS_CONTROL_SHADER, "warp.tesc"},
+                                {GL_TESS_EVALUATION_SHADER, "warp.tese"},
+                                {GL_FRAGMENT_SHADER, "scene.frag"}},
+                               defines);
+    }
+    return makeProgram({{GL_VERTEX_SHADER, "scene.vert"}, {GL_FRAGMENT_SHADER, "scene.frag"}}, defines);
 }
 
 ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath path)
@@ -96,8 +112,12 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         const auto defineIf = [&](bool condition, const char* name) {
             if (condition) defines.emplace_back(name);
         };
-        const bool pairs = path.source == CornerSource::pairs;
+        defines.insert(defines.end(), path.screenMap.begin(), path.screenMap.end());
+        const bool warped =
+            path.source == CornerSource::warped || path.source == CornerSource::warpedTessellated;
+        const bool pairs = warped || path.source == CornerSource::pairs;
         defineIf(pairs, "PAIRS");
+        defineIf(path.source == CornerSource::warpedTessellated, "TESSELLATED");
         if (pairs) defines.push_back("PAIRS_PER_INSTANCE " + std::to_string(kPairsPerInstance) + "u");
         defineIf(path.source == CornerSource::loop, "LOOP");
         const bool layered = path.source == CornerSource::layered;
@@ -106,8 +126,9 @@ ScenePrograms::ScenePrograms(const Scene& scene, SceneLook look, GeometryPath pa
         const bool tessellated = path.source == CornerSource::tessellated;
         const bool bounded = path.source == CornerSource::bounded;
         if (bounded) std::ranges::move(definesOf(path.bounded), std::back_inserter(defines));
-        const bool onePiece = path.source == CornerSource::plain || layered || bounded;
-        const bool owned = path.singleCover || (variant.blended && !onePiece);
+        // Parts of a warped triangle share no pixel, nor do what bounding shapes show.
+        const bool sharesPixels = path.source != CornerSource::plain && !layered && !bounded && !warped;
+        const bool owned = path.singleCover || (variant.blended && sharesPixels);
         defineIf(owned, "OWNED");
         if (owned) defines.push_back("OWNER_SAMPLES " + std::to_string(path.ownerSamples));
         defineIf(variant.blended, "BLENDED");
@@ -154,20 +175,12 @@ std::vector<std::string> ScenePrograms::attributes() const {
     return fetched;
 }
 
-void ScenePrograms::setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const {
-    setPass(view, pieces.sizePx, pass);
-    for (const auto& [variant, entry] : programs_) {
-        if (entry.owned) glProgramUniform1i(entry.program.id(), 17, pass.firstSample);
-        if (entry.checksFacing) glProgramUniform1i(entry.program.id(), 12, pieces.frontIsClockwise.front());
-    }
-}
-
 void ScenePrograms::setFrame(const SceneView& view, const RoundLens& lens, const FramePass& pass) const {
-    setPass(view, lens.sizePx, pass);
+    setFrame(view, lens.sizePx, pass);
     for (const auto& [variant, entry] : programs_) setLens(entry.program.id(), lens);
 }
 
-void ScenePrograms::setPass(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const {
+void ScenePrograms::setFrame(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const {
     const glm::vec2 shiftInClipSpace = 2.0f * pass.shiftPx / glm::vec2(sizePx);
     const glm::vec3 sampling(pass.shiftPx, std::exp2(pass.lodBias));
     for (const auto& [variant, entry] : programs_) {
@@ -176,8 +189,13 @@ void ScenePrograms::setPass(const SceneView& view, glm::ivec2 sizePx, const Fram
         glProgramUniform3fv(program, 1, 1, &view.originFromEyeM[0]);
         glProgramUniform1f(program, 9, kNearFraction);
         glProgramUniform2fv(program, 14, 1, &shiftInClipSpace[0]);
+        if (entry.owned) glProgramUniform1i(program, 17, pass.firstSample);
         if (drawsEdges_) glProgramUniform3fv(program, 22, 1, &sampling[0]);
     }
+}
+
+void ScenePrograms::setFacing(bool frontIsClockwise) const {
+    for (const auto& [variant, entry] : programs_) setFacing(entry.program.id(), frontIsClockwise);
 }
 
 void ScenePrograms::setFacing(GLuint program, bool frontIsClockwise) const {

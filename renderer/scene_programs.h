@@ -4,7 +4,6 @@
 #include "renderer/bounding_shape.h"
 #include "renderer/frame_pass.h"
 #include "renderer/gl/program.h"
-#include "renderer/gpu_pieces.h"
 #include "renderer/look.h"
 #include "renderer/round_lens.h"
 #include "renderer/scene/scene.h"
@@ -28,12 +27,14 @@ std::string outputDefine(OutputKind output);
 
 // How the corners reach the shader.
 enum class CornerSource {
-    plain,        // plain vertices, one piece for all
-    loop,         // plain vertices, the piece is a uniform
-    pairs,        // pulled by (triangle, piece) pairs
-    tessellated,  // triangles by number, replicated on their way
-    layered,      // plain vertices, each triangle into several pictures of one piece each
-    bounded,      // plain triangles, which rays are cast at within bounding shapes
+    plain,              // plain vertices, one piece for all
+    loop,               // plain vertices, the piece is a uniform
+    pairs,              // pulled by (triangle, piece) pairs
+    tessellated,        // triangles by number, replicated on their way
+    layered,            // plain vertices, each triangle into several pictures of one piece each
+    bounded,            // plain triangles, which rays are cast at within bounding shapes
+    warped,             // pulled by (triangle, part) pairs, each vertex moved to where the display shows it
+    warpedTessellated,  // the same, with more vertices in between
 };
 
 // For CornerSource::bounded.
@@ -58,6 +59,7 @@ struct GeometryPath {
     bool closesHoles = false;  // pixels without an owner are closed before anything is drawn
     int layers = 0;            // pictures that are drawn at once, where they are layered
     BoundedPath bounded{};
+    std::vector<std::string> screenMap{};  // of warped corners: see renderer/screen_map.h
 
     bool operator==(const GeometryPath&) const = default;
 };
@@ -81,13 +83,14 @@ public:
     };
     Chosen choose(const Material& material) const;
 
-    // Sets what is the same for all materials of a pass, for pieces or for a lens.
-    void setFrame(const SceneView& view, const GpuPieces& pieces, const FramePass& pass) const;
-    // `view` is in lens axes.
+    // Sets what is the same for all materials of a pass. A plain draw also needs setFacing().
+    void setFrame(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const;
+    // For a lens; `view` is in its axes.
     void setFrame(const SceneView& view, const RoundLens& lens, const FramePass& pass) const;
 
-    // For one of its programs: how triangles seen from the front turn on the screen.
+    // How triangles seen from the front turn on the screen, for one of its programs or for all.
     void setFacing(GLuint program, bool frontIsClockwise) const;
+    void setFacing(bool frontIsClockwise) const;
 
     // Corners are pulled from the scene's buffers, for a plain draw too: lines need to know whose they are.
     bool drawsEdges() const { return drawsEdges_; }
@@ -103,7 +106,6 @@ private:
         bool checksFacing = false, owned = false;
     };
     Variant variantFor(const Material& material) const;
-    void setPass(const SceneView& view, glm::ivec2 sizePx, const FramePass& pass) const;
 
     SceneLook look_;
     bool drawsEdges_;

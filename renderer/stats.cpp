@@ -70,6 +70,7 @@ nlohmann::json toJson(const RenderStats& stats) {
         json["rendered_fragments"] = stats.renderedFragments;
         json["overdraw"] = stats.overdraw();
     }
+    if (stats.method == "vertex-warp") json["tessellation_px"] = stats.tessellationPx;
     if (stats.choice) json["auto"] = toJson(*stats.choice);
     return json;
 }

@@ -36,12 +36,14 @@ struct ChoiceStats {
 
 struct RenderStats {
     std::string method;
-    std::string engine;  // as asked for, or "plain" (one piece: one plain draw), "cube", "planar", "embree"
+    std::string engine;  // as asked for, or "plain" (one piece: one plain draw), "cube", "planar", "vertex",
+                         // "embree"
     double tolerancePx = 0;  // piecewise
     GeometricError geometricError;
     int pieces = 0;
     int certificateEvery = 1;         // piecewise: the error is over every so many-th row and column
     double fullCertificateAgeMs = 0;  // piecewise: since the display was last certified at every pixel
+    double tessellationPx = 0;        // vertex-warp
     std::string source, filter, facePass, lookup;  // image-based, as are the next seven
     int faceSizePx = 0;
     int faces = 0;                        // cube faces that the display sees, or the one planar picture

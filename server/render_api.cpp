@@ -20,6 +20,7 @@ namespace {
 
 constexpr Range kPositionM{-1e12, 1e12};
 constexpr Range kAngleDeg{-1e6, 1e6};
+constexpr Range kTessellationPx{0, kMostTessellationPx};
 constexpr Range kTolerancePx{kLeastTolerancePx, kMostTolerancePx};
 
 UsageError impossible(const std::string& field, const std::string& expected, const std::string& found) {
@@ -81,6 +82,12 @@ Names decodeFields(JsonFields fields, RenderCall& call) {
     readName(fields, "method", methodFromName, methodNames, request.method);
     readName(fields, "engine", engineFromName, engineNames, request.engine);
     request.tolerancePx = fields.number("tolerance_px", kTolerancePx).value_or(request.tolerancePx);
+    if (const auto length = fields.number("tessellation_px", kTessellationPx)) {
+        if (*length > 0 && *length < kLeastTessellationPx)
+            throw impossible("tessellation_px", "0 or at least " + describe(kLeastTessellationPx),
+                             describe(*length));
+        request.tessellationPx = *length;
+    }
     readName(fields, "source", sourceFromName, sourceNames, request.source);
     readName(fields, "filter", filterFromName, filterNames, request.filter);
     readName(fields, "faces", facePassFromName, facePassNames, request.facePass);

@@ -1,11 +1,16 @@
 // The fine level of coverage: which pieces does each triangle of a meshlet touch? Run twice a frame: COUNT, and after
 // scan.comp EMIT, which writes the pairs in scene order so that the same request draws the same picture. Lorenz and Doellner
 // (2009), section 2.1, count in pass 1 and replicate in pass 2; here a tree over the pieces takes the place of their regular
-// grid. One group a meshlet.
+// grid. One group a meshlet. WARP: for vertex-warp, the parts of each triangle rather than pieces.
 
 layout(local_size_x = GROUP_SIZE) in;
 
+#ifdef WARP
+#include "warp_parts.glsl"
+layout(std430, binding = 8) writeonly buffer Parts { uvec4 parts[]; };  // of each pair: the part's corners, where divided
+#else
 #include "piece_coverage.glsl"
+#endif
 #include "meshlet.glsl"
 #include "group_prefix.glsl"
 
@@ -40,7 +45,11 @@ uint next, most;  // pair of this invocation's triangle, and how many it has
 uint triangleAndFacing;
 
 void take(uint piece, uint nth) {
-    if (next + nth < capacity) pairs[next + nth] = uvec2(triangleAndFacing, piece);
+    if (next + nth >= capacity) return;
+    pairs[next + nth] = uvec2(triangleAndFacing, piece);
+#ifdef WARP
+    parts[next + nth] = uvec4(partCorners, 0u);
+#endif
 }
 #endif
 
@@ -60,7 +69,12 @@ void main() {
     most = ofTriangle.w & ~SEEN_FROM_BEHIND;
     next = groupPairs[gl_WorkGroupID.x] + groupPrefix(most);
     triangleAndFacing = (m.firstTriangle + self) | (ofTriangle.w & SEEN_FROM_BEHIND);
-    if (most > KEPT) {
+#ifdef WARP
+    bool isKept = most <= KEPT && (ofTriangle.x & IS_DIVIDED) == 0u;
+#else
+    bool isKept = most <= KEPT;
+#endif
+    if (!isKept) {
         // Two programs need not round alike: for a piece that this walk misses nothing is drawn.
         uint again = walk(rayTriangleAt(m.firstTriangle + self), meshletNodes[index].x, meshletNodes[index].y,
                           most);

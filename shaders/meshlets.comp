@@ -1,5 +1,6 @@
 // The coarse level of coverage: which meshlets show something, and which part of the piece tree is theirs. MARK looks at
-// each, scan.comp counts, GATHER lists those that are left, in order. MARK walks the tree, or with GRID looks at a few cells.
+// each, scan.comp counts, GATHER lists those that are left, in order. MARK walks the tree, or with GRID looks at a few cells,
+// or with WARP at the cone of what the display shows.
 
 #include "scene_geometry.glsl"
 #include "meshlet.glsl"
@@ -17,8 +18,10 @@ layout(location = 5) uniform uint meshletCount;
 
 #ifdef MARK
 #include "group_prefix.glsl"
-#ifdef GRID
+#if defined(GRID)
 #include "grid_lookup.glsl"
+#elif defined(WARP)
+#include "warp_lookup.glsl"
 #else
 #include "tree_lookup.glsl"
 #endif

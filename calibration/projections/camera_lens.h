@@ -30,6 +30,10 @@ public:
     // The radius of the disc: the tangent of the angle off the axis.
     double mostRadius() const { return mostRadius_; }
 
+    const std::array<double, maths::kPinholeTerms>& terms() const { return terms_; }
+    const glm::dmat3& tilt() const { return tilt_; }
+    const CameraIntrinsics& intrinsics() const { return intrinsics_; }
+
 private:
     bool isWithinReach(glm::dvec2 distorted) const;
     glm::dvec2 startFor(glm::dvec2 distorted) const;

@@ -27,6 +27,8 @@ public:
     bool dependsOnEye() const override { return base_->dependsOnEye(); }
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    const Projection& base() const { return *base_; }
+
 private:
     std::shared_ptr<const GridMap> map_;
     ProjectionPtr base_;

@@ -27,6 +27,10 @@ public:
     std::vector<glm::dvec2> project(glm::dvec3 ray) const override;
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    const CylinderWall& wall() const { return wall_; }
+    const glm::dmat3& worldFromCylinder() const { return worldFromCylinder_; }  // a rotation
+    glm::dvec3 eyeInCylinderM() const { return eyeInCylinderM_; }               // from the middle of the axis
+
 private:
     CylinderWall wall_;
     glm::dvec2 sizePx_;

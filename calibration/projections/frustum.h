@@ -26,6 +26,9 @@ public:
     bool dependsOnEye() const override { return false; }
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    // Homogeneous; the third coordinate is 1 on the picture's plane.
+    const glm::dmat3& pixelFromRay() const { return pixelFromRay_; }
+
 private:
     glm::dmat3 rayFromPixel_;
     glm::dmat3 pixelFromRay_;

@@ -43,6 +43,12 @@ public:
     std::vector<glm::dvec2> project(glm::dvec3 ray) const override;
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    const Lens& lens() const { return *lens_; }
+    const glm::dmat3& worldFromLens() const { return worldFromLens_; }  // of directions; a rotation
+    glm::dvec3 lensM() const { return pose_.centerM; }
+    glm::dvec3 eyeM() const { return eyeM_; }
+    const DomeSurface& dome() const { return dome_; }
+
 private:
     LensPtr lens_;
     Pose pose_;

@@ -38,6 +38,8 @@ public:
     bool dependsOnEye() const override { return picture_->dependsOnEye(); }
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    const Projection& picture() const { return *picture_; }
+
 private:
     ProjectionPtr picture_;
     glm::dvec2 lowPx_, highPx_;

@@ -20,6 +20,9 @@ public:
     std::vector<glm::dvec2> project(glm::dvec3 ray) const override;
     ProjectionPtr seenFrom(glm::dvec3 eyeM) const override;
 
+    // Homogeneous; the third coordinate is 1 on the picture's plane.
+    const glm::dmat3& pixelFromRay() const { return pixelFromRay_; }
+
 private:
     PlanarScreen screen_;
     glm::ivec2 sizePx_;

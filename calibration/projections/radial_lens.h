@@ -43,6 +43,7 @@ public:
     glm::dvec2 centrePx() const { return centrePx_; }
     glm::dvec2 focalPx() const { return focalPx_; }
     double edgeRad() const { return edgeRad_; }
+    double limitRad() const { return limitRad_; }  // up to which the function grows
 
 private:
     RadialFunction function_;

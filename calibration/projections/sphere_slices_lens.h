@@ -15,6 +15,9 @@ public:
     std::optional<glm::dvec3> direction(glm::dvec2 px) const override;
     std::vector<glm::dvec2> positions(glm::dvec3 direction) const override;
 
+    const AngleAxis& columns() const { return columns_; }
+    const AngleAxis& rows() const { return rows_; }
+
 private:
     AngleAxis columns_;
     AngleAxis rows_;  // downwards
