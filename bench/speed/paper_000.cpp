@@ -5,6 +5,7 @@
 #include "bench/speed/rounds.h"
 #include "bench/speed/walls.h"
 #include "calibration/projections/lens_projection.h"
+#include "calibration/projections/planar.h"
 #include "calibration/projections/radial_lens.h"
 #include "renderer/names.h"
 #include "renderer/scene/city.h"
