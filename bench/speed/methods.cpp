@@ -2,6 +2,7 @@
 
 #include "bench/speed/csv.h"
 #include "bench/speed/parts.h"
+#include "bench/speed/rounds.h"
 #include "calibration/errors.h"
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/readers/wall_reader.h"
@@ -45,39 +46,51 @@ void print(const Row& row, const FrameAmounts& amounts) {
     print(row, "resampled_px", amounts.resampledPx);
 }
 
-std::optional<RenderStats> statsOf(Renderer& renderer, const RenderRequest& request, const Row& row) {
-    try {
-        const RenderStats stats = renderer.render(request).stats;
-        print(row, "error_px", stats.geometricError.maxPx);
-        print(row, "frame_ms", stats.frameMsMedian);
-        return stats;
-    } catch (const UsageError&) {
-        return std::nullopt;  // it cannot draw this display or scene
+// Those of the rivals that can draw the display and the scene within the tolerance.
+std::vector<MethodForecast> ableOnes(Renderer& renderer, const std::vector<MethodForecast>& rivals,
+                                     const std::string& name) {
+    std::vector<MethodForecast> able;
+    for (const MethodForecast& rival : rivals) {
+        RenderRequest once = rival.request;
+        once.frames = 1;
+        once.measuresError = true;
+        const Row row{"methods", name + ": " + settingsOf(rival.request)};
+        try {
+            const double errorPx = renderer.render(once).stats.geometricError.maxPx;
+            print(row, "error_px", errorPx);
+            if (errorPx <= rival.request.tolerancePx) able.push_back(rival);
+        } catch (const UsageError& error) {
+            print(row, "refused", error.what());
+        }
     }
+    return able;
 }
 
-// The one that is chosen is compared by its own time among the rivals, so that noise between two runs of the
-// same does not count.
 void measureOn(Renderer& renderer, const RenderRequest& base, const Display& display,
-               const std::string& name) {
-    const auto row = [&](const std::string& settings) { return Row{"methods", name + ": " + settings}; };
+               const SpeedOptions& options, const std::string& name) {
     RenderRequest automatic = base;
     automatic.method = Method::automatic;
-    const ChoiceStats choice = renderer.render(automatic).stats.choice.value();
-    const std::string& chosen = choice.forecasts.front().settings;
-    double leastMs = std::numeric_limits<double>::infinity(), chosenMs = leastMs;
-    for (const MethodForecast& rival : rivalsOf(base, display)) {
-        const std::string settings = settingsOf(rival.request);
-        const auto stats = statsOf(renderer, rival.request, row(settings));
-        if (!stats) continue;
-        print(row(settings), rival.amounts);
-        print(row(settings), "forecast_ms", rival.frameMs);
-        if (settings == chosen) chosenMs = stats->frameMsMedian;
-        if (settings == chosen || stats->geometricError.maxPx <= base.tolerancePx)
-            leastMs = std::min(leastMs, stats->frameMsMedian);
+    const std::string chosen = renderer.render(automatic).stats.choice.value().forecasts.front().settings;
+
+    const std::vector<MethodForecast> able = ableOnes(renderer, rivalsOf(base, display), name);
+    std::vector<RenderRequest> requests;
+    for (const MethodForecast& rival : able) requests.push_back(rival.request);
+    const std::vector<Rounds> rounds = renderInTurns(renderer, requests, options.rounds);
+    const Rounds* ofChosen = nullptr;
+    for (size_t i = 0; i < able.size(); ++i) {
+        const std::string settings = settingsOf(able[i].request);
+        const Row row{"methods", name + ": " + settings};
+        print(row, "frame_ms", medianRound(rounds[i]).frameMsMedian);
+        print(row, "forecast_ms", able[i].frameMs);
+        print(row, able[i].amounts);
+        if (settings == chosen) ofChosen = &rounds[i];
     }
-    print(row("auto"), "chosen", chosen);
-    print(row("auto"), "times_fastest", chosenMs / leastMs);
+    const Row row{"methods", name + ": auto"};
+    print(row, "chosen", chosen);
+    double timesFastest = 1;
+    for (const Rounds& rival : rounds)
+        if (ofChosen != nullptr) timesFastest = std::max(timesFastest, medianRatio(*ofChosen, rival));
+    if (ofChosen != nullptr) print(row, "times_fastest", timesFastest);
 }
 
 }  // namespace
@@ -99,10 +112,9 @@ void measureMethods(const SpeedOptions& options) {
                 base.camera = scene->defaultCamera;
                 base.tolerancePx = options.tolerancePx;
                 base.frames = options.frames;
-                base.measuresError = true;
                 base.pieces = pieces;
                 const std::string name = std::filesystem::path(file).stem().string() + "/" + display.name;
-                measureOn(renderer, base, display, name + " " + scene->name);
+                measureOn(renderer, base, display, options, name + " " + scene->name);
             }
             if (options.firstDisplays) break;
         }

@@ -59,6 +59,15 @@ void tryThoseInDoubt(MethodChoice& choice, const AutomaticMethod::RenderSettled&
     });
 }
 
+// Those that forecasts turn.
+void turnKnobs(RenderRequest& request, const RenderRequest& chosen) {
+    request.method = chosen.method;
+    request.source = chosen.source;
+    request.faceSizePx = chosen.faceSizePx;
+    request.bounds = chosen.bounds;
+    request.tessellationPx = chosen.tessellationPx;
+}
+
 ChoiceStats statsOf(const MethodChoice& choice) {
     ChoiceStats stats;
     for (const MethodForecast& forecast : choice.forecasts)
@@ -83,22 +92,17 @@ ChoiceStats statsOf(const MethodChoice& choice) {
 RenderResult AutomaticMethod::render(const RenderRequest& request, const Display& display,
                                      const RenderSettled& settled) {
     const Stopwatch choosing;
-    const auto choice = choices_.get({request.wall, &display, request.scene, request.tolerancePx,
-                                      request.samples, request.style, request.output},
-                                     [&] {
-                                         MethodChoice made = forecastMethods(request, display);
-                                         tryThoseInDoubt(made, settled);
-                                         return std::make_shared<const MethodChoice>(std::move(made));
-                                     });
+    const auto choice =
+        choices_.get({request.wall, &display, request.scene, request.tolerancePx, request.samples,
+                      request.engine, request.filter, request.style, request.output},
+                     [&] {
+                         MethodChoice made = forecastMethods(request, display);
+                         tryThoseInDoubt(made, settled);
+                         return std::make_shared<const MethodChoice>(std::move(made));
+                     });
     const double choosingMs = choosing.ms();
-    RenderRequest now = choice->forecasts.front().request;
-    now.camera = request.camera;
-    now.pieces = request.pieces;
-    now.anisotropy = request.anisotropy;
-    now.linearOutput = request.linearOutput;
-    now.timesStages = request.timesStages;
-    now.measuresError = request.measuresError;
-    now.frames = request.frames;
+    RenderRequest now = request;
+    turnKnobs(now, choice->forecasts.front().request);
     RenderResult result = settled(now);
     result.stats.prepareMs += choosingMs;
     result.stats.choice = statsOf(*choice);
