@@ -130,6 +130,10 @@ MethodChoice forecastMethods(const RenderRequest& request, const Display& displa
     facts.scene =
         factsOf(*request.scene, sceneViewOf(request.camera, request.wall->eyeM, *request.scene), facts.shown);
     MethodChoice choice{{piecewiseForecast(facts)}, {}};
+    if (request.pieces->mesh.pieces.size() == 1) {
+        choice.ruledOut.push_back("the others: one plain draw is what the display needs");
+        return choice;
+    }
     const auto consider = [&](std::string_view name, const auto& forecast) {
         try {
             choice.forecasts.push_back(forecast());

@@ -27,8 +27,6 @@ std::vector<MethodForecast> rivalsOf(const RenderRequest& base, const Display& d
     };
     for (size_t i = 0, count = rivals.size(); i < count; ++i) {
         const MethodForecast rival = rivals[i];
-        if (rival.request.method == Method::imageBased && rival.request.faceSizePx <= kMostFacePx * 4 / 5)
-            add(rival, [](RenderRequest& request) { request.faceSizePx = request.faceSizePx * 5 / 4; });
         if (rival.request.method == Method::vertexWarp && rival.request.tessellationPx > 0)
             for (const double longer : {0.7, 1.4})
                 add(rival, [&](RenderRequest& request) {

@@ -37,6 +37,8 @@ std::vector<Line> linesOf(const std::string& name, const PieceWall& asInThePaper
         line.name += ", HQ";
         line.request.samples = 16;
         line.request.anisotropy = 16;
+        // The software driver has 4 samples, and layered pictures have no more than the driver.
+        line.request.facePass = FacePass::separate;
         line.request.frames = std::min(line.request.frames, 4);
         lines.push_back(std::move(line));
     }

@@ -53,7 +53,9 @@ TEST(MethodChoice, HasTheFastestFirstAndPiecewiseAmongThem) {
 TEST(MethodChoice, OfAFlatScreenIsItsOnePiece) {
     const MethodChoice choice =
         choiceFor(automaticRequest(test::planarWall({320, 240}, 90), "city:2000", 0.5));
+    ASSERT_EQ(choice.forecasts.size(), 1u);
     EXPECT_EQ(choice.forecasts.front().request.method, Method::piecewise);
+    EXPECT_THAT(choice.ruledOut, Contains(StartsWith("the others: one plain draw")));
 }
 
 TEST(MethodChoice, SaysWhyAMethodCannotDrawTheDisplay) {
