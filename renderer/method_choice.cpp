@@ -10,9 +10,11 @@
 #include "renderer/scene_facts.h"
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace curvewall {
@@ -47,13 +49,31 @@ constexpr Costs kTriangleBoundCosts{4, 3000, 0, 60, 0};
 constexpr Costs kQuadBoundCosts{4, 1500, 0, 90, 0};
 constexpr Costs kWarpCosts{4, 300, 400, 7, 0};
 
-// A triangle is drawn once for each piece that it touches: as many as its box of pieces holds.
-double pairsOf(const Facts& facts, int pieces) {
-    const double piecePx = std::sqrt(facts.shown.shownPx / pieces);
-    const double triangles = facts.scene.seenTriangles;
+double angleBetween(glm::dvec3 a, glm::dvec3 b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// Of all pieces, as they are seen from the eye, in mean pixels.
+double perimetersPx(const Facts& facts) {
+    const PieceMesh& mesh = facts.request.pieces->mesh;
+    double sumRad = 0;
+    for (const Piece& piece : mesh.pieces)
+        for (uint32_t i = 0; i < piece.vertexCount; ++i)
+            sumRad += angleBetween(mesh.vertices[piece.vertices[i]].m,
+                                   mesh.vertices[piece.vertices[(i + 1) % piece.vertexCount]].m);
+    return sumRad * std::sqrt(facts.shown.shownPx / facts.shown.solidAngleSr);
+}
+
+// A triangle is drawn once for each piece that it touches. Convex shapes of areas A and a and perimeters P
+// and p, thrown onto an area W, touch with the probability (A + a + P p / 2 pi) / W (Santalo, Integral
+// Geometry and Geometric Probability, 1976); triangles are taken as equilateral ones.
+double pairsOf(const Facts& facts) {
+    const double triangles = facts.scene.seenTriangles, areaPx2 = facts.shown.shownPx;
+    const auto pieces = static_cast<double>(facts.request.pieces->mesh.pieces.size());
     const double edgesPx = std::sqrt(triangles * facts.scene.squaredEdgesPx2);
-    return kFacingEye *
-           (triangles + edgesPx / piecePx + facts.scene.squaredEdgesPx2 / (piecePx * piecePx) / 4);
+    const double crossings = perimetersPx(facts) * 3 * edgesPx / (2 * std::numbers::pi * areaPx2);
+    const double held = pieces * std::sqrt(3) / 4 * facts.scene.squaredEdgesPx2 / areaPx2;
+    return kFacingEye * (triangles + crossings + held);
 }
 
 MethodForecast piecewiseForecast(const Facts& facts) {
@@ -61,7 +81,7 @@ MethodForecast piecewiseForecast(const Facts& facts) {
     forecast.request.method = Method::piecewise;
     const auto pieces = static_cast<int>(facts.request.pieces->mesh.pieces.size());
     const double triangles = facts.scene.seenTriangles, px = facts.shown.shownPx;
-    const double pairs = pieces == 1 ? triangles : pairsOf(facts, pieces);
+    const double pairs = pieces == 1 ? triangles : pairsOf(facts);
     forecast.amounts = {triangles, pairs, facts.fragments(px), 0};
     forecast.frameMs = msOf(pieces == 1 ? kPlainCosts : kPieceCosts, forecast.amounts);
     return forecast;
@@ -102,7 +122,7 @@ MethodForecast boundedRaycastForecast(const Facts& facts, BoundingShape bounds) 
 }
 
 // A triangle may lie further from its straight image than its edges do from theirs.
-constexpr double kErrorOfAnEdge = 1.5;
+constexpr double kErrorOfAnEdge = 3;
 
 MethodForecast vertexWarpForecast(const Facts& facts) {
     if (std::isinf(facts.shown.bendPx))

@@ -44,23 +44,31 @@ void print(const Row& row, const FrameAmounts& amounts) {
     print(row, "resampled_px", amounts.resampledPx);
 }
 
-// Those of the rivals that can draw the display and the scene within the tolerance.
-std::vector<MethodForecast> ableOnes(Renderer& renderer, const std::vector<MethodForecast>& rivals,
+// Those of the rivals that can draw the display and the scene within the tolerance, but for those that are
+// out of the question: their first frame takes many times as long as the fastest.
+std::vector<MethodForecast> ableOnes(Renderer& renderer, std::vector<MethodForecast> rivals,
                                      const std::string& name) {
+    constexpr double kOutOfTheQuestion = 4;
     std::vector<MethodForecast> able;
-    for (const MethodForecast& rival : rivals) {
+    double leastMs = std::numeric_limits<double>::infinity();
+    for (MethodForecast& rival : rivals) {
         RenderRequest once = rival.request;
         once.frames = 1;
         once.measuresError = true;
         const Row row{"methods", name + ": " + settingsOf(rival.request)};
         try {
-            const double errorPx = renderer.render(once).stats.geometricError.maxPx;
-            print(row, "error_px", errorPx);
-            if (errorPx <= rival.request.tolerancePx) able.push_back(rival);
+            const RenderStats stats = renderer.render(once).stats;
+            print(row, "error_px", stats.geometricError.maxPx);
+            print(row, "first_ms", stats.frameMsMedian);
+            if (stats.geometricError.maxPx > rival.request.tolerancePx) continue;
+            rival.trialMs = stats.frameMsMedian;
+            leastMs = std::min(leastMs, stats.frameMsMedian);
+            able.push_back(std::move(rival));
         } catch (const UsageError& error) {
             print(row, "refused", error.what());
         }
     }
+    std::erase_if(able, [&](const auto& rival) { return *rival.trialMs > kOutOfTheQuestion * leastMs; });
     return able;
 }
 
@@ -81,6 +89,7 @@ void measureOn(Renderer& renderer, const RenderRequest& base, const Display& dis
         print(row, "frame_ms", medianRound(rounds[i]).frameMsMedian);
         print(row, "forecast_ms", able[i].frameMs);
         print(row, able[i].amounts);
+        print(row, "pairs", static_cast<double>(medianRound(rounds[i]).pairs));
         if (settings == chosen) ofChosen = &rounds[i];
     }
     const Row row{"methods", name + ": auto"};
