@@ -42,12 +42,12 @@ double msOf(const Costs& costs, const FrameAmounts& amounts) {
 
 constexpr double kFacingEye = 0.5;  // of the triangles of closed shapes
 
-constexpr Costs kPlainCosts{2, 0, 60, 6, 0};
-constexpr Costs kPieceCosts{8, 600, 150, 7, 0};
-constexpr Costs kImageCosts{4, 0, 60, 6, 8};
-constexpr Costs kTriangleBoundCosts{4, 3000, 0, 60, 0};
-constexpr Costs kQuadBoundCosts{4, 1500, 0, 90, 0};
-constexpr Costs kWarpCosts{4, 300, 400, 7, 0};
+constexpr Costs kPlainCosts{5, 300, 20, 5, 0};
+constexpr Costs kPieceCosts{13, 600, 560, 3, 0};
+constexpr Costs kImageCosts{10, 0, 300, 4, 30};
+constexpr Costs kTriangleBoundCosts{15, 4500, 0, 21, 0};
+constexpr Costs kQuadBoundCosts{5, 3500, 0, 45, 0};
+constexpr Costs kWarpCosts{35, 1500, 250, 2, 0};
 
 double angleBetween(glm::dvec3 a, glm::dvec3 b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));

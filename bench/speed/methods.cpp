@@ -53,7 +53,7 @@ std::vector<MethodForecast> ableOnes(Renderer& renderer, std::vector<MethodForec
     double leastMs = std::numeric_limits<double>::infinity();
     for (MethodForecast& rival : rivals) {
         RenderRequest once = rival.request;
-        once.frames = 1;
+        once.frames = 2;  // of one frame alone, drivers compile within it
         once.measuresError = true;
         const Row row{"methods", name + ": " + settingsOf(rival.request)};
         try {

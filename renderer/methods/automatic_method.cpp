@@ -13,7 +13,7 @@ namespace curvewall {
 namespace {
 
 // Forecasts are off by up to this factor (docs/auto.md): what is closer is tried.
-constexpr double kDoubt = 2;
+constexpr double kDoubt = 2.5;
 constexpr int kTrialFrames = 3;
 
 // Some frames of the method. False, with the reason among those ruled out, where it cannot draw the scene or
