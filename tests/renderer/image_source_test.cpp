@@ -153,8 +153,8 @@ TEST(CubeSource, AHemicubeHoldsAHalfSpaceAndNoMore) {
 }
 
 TEST(CubeSource, AHemicubeTurnsToAnAxisThatHoldsADisplaySeenFromTheSide) {
-    // Most pixels lie to the left of the eye, and leave the right end behind their mean direction.
-    const Wall wall = test::cylinderWall({2, 2.6, 1, {}, {}}, {-1.2, 0, 0.3}, {300, 200});
+    // Most pixels lie to the right of the eye, and leave the left end behind their mean direction.
+    const Wall wall = test::cylinderWall({2, 2.6, 1, {}, {}}, {-1.2, 0, -0.45}, {300, 200});
     const PixelRays rays(*wall.displays[0].projection, {300, 200});
     glm::dvec3 mean(0);
     double least = 1;
