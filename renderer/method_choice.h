@@ -9,9 +9,18 @@
 
 namespace curvewall {
 
+// How much there is to do in a frame; what it takes is a sum over these.
+struct FrameAmounts {
+    double seenTriangles = 0;   // looked at
+    double drawnTriangles = 0;  // by the rasterizer
+    double fragments = 0;
+    double resampledPx = 0;
+};
+
 struct MethodForecast {
-    RenderRequest request;            // of that method, with its knobs
-    double errorPx = 0;               // the largest geometric error
+    RenderRequest request;  // of that method, with its knobs
+    double errorPx = 0;     // the largest geometric error
+    FrameAmounts amounts{};
     double frameMs = 0;               // in software, on two cores: what counts is which is less
     std::optional<double> trialMs{};  // what a frame took, where it was tried
 };

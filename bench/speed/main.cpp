@@ -26,7 +26,8 @@ struct Part {
 constexpr std::array kParts{
     Part{"pairs", measurePairs},         Part{"ratios", measureRatios},   Part{"stages", measureStages},
     Part{"triangles", measureTriangles}, Part{"pieces", measurePieces},   Part{"engines", measureEngines},
-    Part{"look", measureLook},           Part{"methods", measureMethods},
+    Part{"look", measureLook},           Part{"methods", measureMethods}, Part{"paper-000", measurePaper000},
+    Part{"paper-001", measurePaper001},
 };
 
 void measure(const std::vector<std::string>& names, const SpeedOptions& options) {

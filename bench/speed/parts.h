@@ -24,6 +24,8 @@ void measureStages(const SpeedOptions& options);
 void measureTriangles(const SpeedOptions& options);
 void measurePieces(const SpeedOptions& options);
 void measureEngines(const SpeedOptions& options);
+void measurePaper000(const SpeedOptions& options);
+void measurePaper001(const SpeedOptions& options);
 void measureMethods(const SpeedOptions& options);
 void measureLook(const SpeedOptions& options);
 

@@ -34,6 +34,31 @@ Wall squareWall(const PlanarScreen& screen) {
     return {"square", {}, {}, {{"square", kDomeSizePx, "planar", std::move(projection)}}};
 }
 
+Wall cameraTextureWall() {
+    const NodeMeaning offsets{.isOffset = true};
+    auto map = std::make_shared<const GridMap>(projectorOffsets(), offsets, kSizePx, Alignment::corners);
+    const double across = std::atan(1.0), up = std::atan(0.75);
+    auto base = std::make_shared<FrustumProjection>(Frustum{-across, across, -up, up, {}}, kSizePx);
+    auto projection = std::make_shared<CameraTexture>(std::move(map), std::move(base), MapDirection::forward);
+    return {"camera texture", {}, {}, {{"projector", kSizePx, "camera_texture", std::move(projection)}}};
+}
+
+// As many cells in each row and column, with what the display shows at their corners.
+template <class PointAt>
+std::shared_ptr<const FittedPieces> evenPieces(glm::ivec2 cells, bool quads, const PointAt& pointAt) {
+    PieceGrid grid{kSizePx, cells.x, cells.y, {}};
+    for (int row = 0; row <= cells.y; ++row)
+        for (int column = 0; column <= cells.x; ++column) {
+            const glm::dvec2 s =
+                snapToGrid(glm::dvec2(column, row) / glm::dvec2(cells) * glm::dvec2(kSizePx));
+            grid.vertices.push_back({pointAt(s), s});
+        }
+    auto pieces = std::make_shared<FittedPieces>();
+    pieces->mesh = meshFromGrid(grid, quads);
+    pieces->owners = std::make_shared<const std::vector<int32_t>>(ownerImage(pieces->mesh));
+    return pieces;
+}
+
 }  // namespace
 
 PieceWall fittedWall(std::string name, Wall wall, double tolerancePx) {
@@ -57,13 +82,7 @@ PieceWall quarterCylinder() {
 }
 
 PieceWall cameraTexture(double tolerancePx) {
-    const NodeMeaning offsets{.isOffset = true};
-    auto map = std::make_shared<const GridMap>(projectorOffsets(), offsets, kSizePx, Alignment::corners);
-    const double across = std::atan(1.0), up = std::atan(0.75);
-    auto base = std::make_shared<FrustumProjection>(Frustum{-across, across, -up, up, {}}, kSizePx);
-    auto projection = std::make_shared<CameraTexture>(std::move(map), std::move(base), MapDirection::forward);
-    Wall wall{"camera texture", {}, {}, {{"projector", kSizePx, "camera_texture", std::move(projection)}}};
-    return fittedWall("camera texture", std::move(wall), tolerancePx);
+    return fittedWall("camera texture", cameraTextureWall(), tolerancePx);
 }
 
 PieceWall squareAhead() {
@@ -77,23 +96,23 @@ PieceWall squareUp() {
 
 PieceWall evenCylinder(glm::ivec2 cells) {
     const CylinderWall cylinder = test::fullCylinder(kSizePx);
-    PieceGrid grid{kSizePx, cells.x, cells.y, {}};
-    for (int row = 0; row <= cells.y; ++row) {
-        for (int column = 0; column <= cells.x; ++column) {
-            const glm::dvec2 s =
-                snapToGrid(glm::dvec2(column, row) / glm::dvec2(cells) * glm::dvec2(kSizePx));
-            const double angle = 2 * test::kPi * (s.x / kSizePx.x - 0.5);
-            grid.vertices.push_back(
-                {{cylinder.radiusM * std::sin(angle), cylinder.heightM * (0.5 - s.y / kSizePx.y),
-                  -cylinder.radiusM * std::cos(angle)},
-                 s});
-        }
-    }
-    auto pieces = std::make_shared<FittedPieces>();
-    pieces->mesh = meshFromGrid(grid, true);
-    pieces->owners = std::make_shared<const std::vector<int32_t>>(ownerImage(pieces->mesh));
+    const auto pointAt = [&](glm::dvec2 s) {
+        const double angle = 2 * test::kPi * (s.x / kSizePx.x - 0.5);
+        return glm::dvec3(cylinder.radiusM * std::sin(angle), cylinder.heightM * (0.5 - s.y / kSizePx.y),
+                          -cylinder.radiusM * std::cos(angle));
+    };
     return {"even cylinder", std::make_shared<const Wall>(test::fullCylinderWall(kSizePx)),
-            kDefaultTolerancePx, std::move(pieces)};
+            kDefaultTolerancePx, evenPieces(cells, true, pointAt)};
+}
+
+PieceWall evenCameraTexture(glm::ivec2 cells) {
+    auto wall = std::make_shared<const Wall>(cameraTextureWall());
+    // On the plane of the base picture.
+    const auto pointAt = [&](glm::dvec2 s) {
+        const glm::dvec3 ray = wall->displays.front().projection->unproject(s).value();
+        return ray / -ray.z;
+    };
+    return {"even camera texture", wall, kDefaultTolerancePx, evenPieces(cells, false, pointAt)};
 }
 
 RenderRequest requestFor(const PieceWall& wall, const ScenePtr& scene, int frames) {

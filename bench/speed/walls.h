@@ -33,6 +33,9 @@ PieceWall squareUp();
 // The full cylinder in so many even columns and rows, whatever its error.
 PieceWall evenCylinder(glm::ivec2 cells);
 
+// The display of cameraTexture() in two triangles a cell, whatever their error.
+PieceWall evenCameraTexture(glm::ivec2 cells);
+
 RenderRequest requestFor(const PieceWall& wall, const ScenePtr& scene, int frames);
 
 }  // namespace curvewall

@@ -72,17 +72,32 @@ PinholeLens::PinholeLens(const CameraIntrinsics& intrinsics) : intrinsics_(intri
     mostRadius_ = oneToOneRadius(terms_);
     mostDistortedRadius_ = mostDistortedRadius(terms_, mostRadius_);
     tableExtent_ = (glm::abs(intrinsics.principalPx) + 1.0) / glm::abs(intrinsics.focalPx);
-    table_.reserve(size_t{kTableSteps + 1} * (kTableSteps + 1));
-    for (int y = 0; y <= kTableSteps; ++y)
-        for (int x = 0; x <= kTableSteps; ++x) {
+    fillTable();
+}
+
+// From the middle outwards, each point from its neighbour's answer, and none from a neighbour without one:
+// the search for what is not there takes longest.
+void PinholeLens::fillTable() {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr int kMiddle = kTableSteps / 2;
+    std::vector<int> outwards{kMiddle};
+    for (int away = 1; away <= kMiddle; ++away)
+        outwards.insert(outwards.end(), {kMiddle - away, kMiddle + away});
+    const auto inwards = [](int i) { return i < kMiddle ? i + 1 : i - 1; };
+    const auto entry = [this](int x, int y) -> glm::dvec2& {
+        return table_[static_cast<size_t>(y) * (kTableSteps + 1) + static_cast<size_t>(x)];
+    };
+    table_.assign(size_t{kTableSteps + 1} * (kTableSteps + 1), glm::dvec2(kNone));
+    for (const int y : outwards)
+        for (const int x : outwards) {
+            const glm::dvec2 start = y != kMiddle   ? entry(x, inwards(y))
+                                     : x != kMiddle ? entry(inwards(x), y)
+                                                    : glm::dvec2(0);
             const glm::dvec2 distorted = (2.0 / kTableSteps * glm::dvec2(x, y) - 1.0) * tableExtent_;
-            // The search for what is not there would take longest.
+            if (std::isnan(start.x) || !isWithinReach(distorted)) continue;
             const glm::dvec3 found =
-                isWithinReach(distorted)
-                    ? maths::pinholeUndistorted(terms_.data(), distorted, mostRadius_, tolerance())
-                    : glm::dvec3(0);
-            table_.push_back(found.z > 0 ? glm::dvec2(found)
-                                         : glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+                maths::pinholeUndistortedFrom(terms_.data(), distorted, start, mostRadius_, tolerance());
+            if (found.z > 0) entry(x, y) = glm::dvec2(found);
         }
 }
 

@@ -35,6 +35,7 @@ public:
     const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
 private:
+    void fillTable();
     bool isWithinReach(glm::dvec2 distorted) const;
     glm::dvec2 startFor(glm::dvec2 distorted) const;
     double tolerance() const;

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace curvewall {
 namespace {
@@ -15,31 +16,56 @@ namespace {
 constexpr double kDoubt = 2;
 constexpr int kTrialFrames = 3;
 
-// The fastest comes first. One that cannot draw this scene is ruled out.
-void tryThoseInDoubt(MethodChoice& choice, const AutomaticMethod::RenderSettled& settled) {
-    const double most = kDoubt * choice.forecasts.front().frameMs;
-    const auto inDoubt = [&](const MethodForecast& forecast) { return forecast.frameMs <= most; };
-    if (std::ranges::count_if(choice.forecasts, inDoubt) < 2) return;
-    std::vector<MethodForecast> tried;
-    for (MethodForecast& forecast : choice.forecasts) {
-        if (inDoubt(forecast)) {
-            RenderRequest trial = forecast.request;
-            trial.frames = kTrialFrames;
-            trial.timesStages = trial.measuresError = false;
-            try {
-                forecast.trialMs = settled(trial).stats.frameMsMedian;
-            } catch (const UsageError& error) {
-                choice.ruledOut.push_back(fmt::format("{}: {}", nameOf(trial.method), error.what()));
-                continue;
-            }
-        }
-        tried.push_back(std::move(forecast));
+// Some frames of the method. False, with the reason among those ruled out, where it cannot draw the scene or
+// misses the tolerance after all.
+bool passesTrial(MethodForecast& forecast, std::vector<std::string>& ruledOut,
+                 const AutomaticMethod::RenderSettled& settled) {
+    RenderRequest trial = forecast.request;
+    trial.frames = kTrialFrames;
+    trial.timesStages = false;
+    trial.measuresError = true;
+    try {
+        const RenderStats stats = settled(trial).stats;
+        forecast.trialMs = stats.frameMsMedian;
+        forecast.errorPx = stats.geometricError.maxPx;
+        if (trial.method == Method::piecewise || forecast.errorPx <= trial.tolerancePx) return true;
+        ruledOut.push_back(
+            fmt::format("{}: off by up to {:.3g} px in a trial", settingsOf(trial), forecast.errorPx));
+    } catch (const UsageError& error) {
+        ruledOut.push_back(fmt::format("{}: {}", settingsOf(trial), error.what()));
     }
-    choice.forecasts = std::move(tried);
-    // Those that were not tried keep their order, behind.
+    return false;
+}
+
+// Afterwards the fastest comes first: those that were tried, then those whose forecast leaves no doubt that
+// they are slower. Piecewise, which is certified and draws everything, goes without a trial where it is
+// alone.
+void tryThoseInDoubt(MethodChoice& choice, const AutomaticMethod::RenderSettled& settled) {
+    std::vector<MethodForecast> kept;
+    double mostMs = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < choice.forecasts.size(); ++i) {
+        MethodForecast& forecast = choice.forecasts[i];
+        const bool doubted = forecast.frameMs <= mostMs;
+        const bool isAlone = kept.empty() && (i + 1 == choice.forecasts.size() ||
+                                              choice.forecasts[i + 1].frameMs > kDoubt * forecast.frameMs);
+        const bool needsTrial = doubted && !(isAlone && forecast.request.method == Method::piecewise);
+        if (needsTrial && !passesTrial(forecast, choice.ruledOut, settled)) continue;
+        if (kept.empty()) mostMs = kDoubt * forecast.frameMs;
+        kept.push_back(std::move(forecast));
+    }
+    choice.forecasts = std::move(kept);
     std::ranges::stable_sort(choice.forecasts, [](const MethodForecast& a, const MethodForecast& b) {
         return a.trialMs && (!b.trialMs || *a.trialMs < *b.trialMs);
     });
+}
+
+// Those that forecasts turn.
+void turnKnobs(RenderRequest& request, const RenderRequest& chosen) {
+    request.method = chosen.method;
+    request.source = chosen.source;
+    request.faceSizePx = chosen.faceSizePx;
+    request.bounds = chosen.bounds;
+    request.tessellationPx = chosen.tessellationPx;
 }
 
 ChoiceStats statsOf(const MethodChoice& choice) {
@@ -66,22 +92,17 @@ ChoiceStats statsOf(const MethodChoice& choice) {
 RenderResult AutomaticMethod::render(const RenderRequest& request, const Display& display,
                                      const RenderSettled& settled) {
     const Stopwatch choosing;
-    const auto choice = choices_.get({request.wall, &display, request.scene, request.tolerancePx,
-                                      request.samples, request.style, request.output},
-                                     [&] {
-                                         MethodChoice made = forecastMethods(request, display);
-                                         tryThoseInDoubt(made, settled);
-                                         return std::make_shared<const MethodChoice>(std::move(made));
-                                     });
+    const auto choice =
+        choices_.get({request.wall, &display, request.scene, request.tolerancePx, request.samples,
+                      request.engine, request.filter, request.style, request.output},
+                     [&] {
+                         MethodChoice made = forecastMethods(request, display);
+                         tryThoseInDoubt(made, settled);
+                         return std::make_shared<const MethodChoice>(std::move(made));
+                     });
     const double choosingMs = choosing.ms();
-    RenderRequest now = choice->forecasts.front().request;
-    now.camera = request.camera;
-    now.pieces = request.pieces;
-    now.anisotropy = request.anisotropy;
-    now.linearOutput = request.linearOutput;
-    now.timesStages = request.timesStages;
-    now.measuresError = request.measuresError;
-    now.frames = request.frames;
+    RenderRequest now = request;
+    turnKnobs(now, choice->forecasts.front().request);
     RenderResult result = settled(now);
     result.stats.prepareMs += choosingMs;
     result.stats.choice = statsOf(*choice);

@@ -23,6 +23,8 @@ private:
         ScenePtr scene;
         double tolerancePx;
         int samples;
+        Engine engine;
+        SourceFilter filter;
         Style style;
         OutputKind output;
         bool operator==(const ChoiceKey&) const = default;
