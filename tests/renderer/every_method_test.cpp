@@ -73,7 +73,7 @@ std::vector<Variant> variants() {
          },
          0.25, 0.01, "vertex-warp moves every vertex to one place"},
         {"reference", [](RenderRequest& request) { request.method = Method::reference; }, 0.01, 0},
-        {"auto", [](RenderRequest& request) { request.method = Method::automatic; }, 0.75, kEdges},
+        {"auto", [](RenderRequest& request) { request.method = Method::automatic; }, 0.25, kEdges},
     };
 }
 
