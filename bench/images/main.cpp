@@ -91,7 +91,7 @@ std::vector<RenderRequest> sources(const RenderRequest& base) {
 // Antialiasing before resampling.
 std::vector<RenderRequest> supersampled(const RenderRequest& base) {
     std::vector<RenderRequest> requests;
-    for (const int samples : {1, 4, 16}) {
+    for (const int samples : {1, 4}) {
         for (const SourceFilter filter : {SourceFilter::linear, SourceFilter::anisotropic}) {
             RenderRequest& request = requests.emplace_back(base);
             request.samples = samples;
