@@ -13,6 +13,13 @@ size_t indexOf(glm::ivec2 px, glm::ivec2 sizePx) {
     return static_cast<size_t>(px.y) * static_cast<size_t>(sizePx.x) + static_cast<size_t>(px.x);
 }
 
+glm::dvec2 placeIn(const LookupCell& cell, glm::ivec2 px) {
+    const auto& [topLeft, topRight, bottomLeft, bottomRight] = cell.places;
+    const glm::dvec2 at = (centreOf(px) - glm::dvec2(cell.fromPx)) / glm::dvec2(cell.toPx - cell.fromPx);
+    if (at.x + at.y <= 1) return topLeft + at.x * (topRight - topLeft) + at.y * (bottomLeft - topLeft);
+    return bottomRight + (1 - at.x) * (bottomLeft - bottomRight) + (1 - at.y) * (topRight - bottomRight);
+}
+
 class MeshMaker {
 public:
     MeshMaker(const ImageSource& source, const PixelRays& rays, const Projection& projection)
@@ -71,11 +78,21 @@ private:
             const auto ray = projection_.unproject(glm::dvec2(corner));
             if (!ray || !(glm::dot(*ray, face.axes.ahead) > 0)) return std::nullopt;
             cell.places[i] = face.place(*ray);
-            const double roomPx = source_.apronPx - 1;
-            const glm::dvec2 mostPx = glm::dvec2(face.sizePx) - roomPx;
-            if (cell.places[i] != glm::clamp(cell.places[i], glm::dvec2(roomPx), mostPx)) return std::nullopt;
         }
-        return cell;
+        return leavesRoom(cell, face) ? std::optional(cell) : std::nullopt;
+    }
+
+    // Corners may lie beyond the picture: it ends with the centres of the display's outermost pixels, and
+    // between corners only centres are looked up. A bicubic filter reaches one and a half texels.
+    bool leavesRoom(const LookupCell& cell, const SourceFace& face) const {
+        const double roomPx = source_.apronPx - 0.5;
+        const glm::dvec2 leastPx(roomPx), mostPx = glm::dvec2(face.sizePx) - roomPx;
+        for (int y = cell.fromPx.y; y < cell.toPx.y; ++y)
+            for (int x = cell.fromPx.x; x < cell.toPx.x; ++x)
+                if (const glm::dvec2 place = placeIn(cell, {x, y});
+                    place != glm::clamp(place, leastPx, mostPx))
+                    return false;
+        return true;
     }
 
     LookupCell pixelCell(glm::ivec2 px) const {
@@ -95,13 +112,6 @@ private:
     std::vector<glm::vec4> places_, gradients_;
     std::vector<LookupCell> cells_;
 };
-
-glm::dvec2 placeIn(const LookupCell& cell, glm::ivec2 px) {
-    const auto& [topLeft, topRight, bottomLeft, bottomRight] = cell.places;
-    const glm::dvec2 at = (centreOf(px) - glm::dvec2(cell.fromPx)) / glm::dvec2(cell.toPx - cell.fromPx);
-    if (at.x + at.y <= 1) return topLeft + at.x * (topRight - topLeft) + at.y * (bottomLeft - topLeft);
-    return bottomRight + (1 - at.x) * (bottomLeft - bottomRight) + (1 - at.y) * (topRight - bottomRight);
-}
 
 }  // namespace
 

@@ -88,6 +88,19 @@ std::vector<RenderRequest> sources(const RenderRequest& base) {
     return requests;
 }
 
+// Antialiasing before resampling.
+std::vector<RenderRequest> supersampled(const RenderRequest& base) {
+    std::vector<RenderRequest> requests;
+    for (const int samples : {1, 4}) {
+        for (const SourceFilter filter : {SourceFilter::linear, SourceFilter::anisotropic}) {
+            RenderRequest& request = requests.emplace_back(base);
+            request.samples = samples;
+            request.filter = filter;
+        }
+    }
+    return requests;
+}
+
 double stageMs(const RenderStats& stats, std::string_view stage) {
     for (const StageMs& measured : stats.stageMs)
         if (measured.stage == stage) return measured.ms;
@@ -96,10 +109,11 @@ double stageMs(const RenderStats& stats, std::string_view stage) {
 
 void printRow(const std::string& display, const RenderRequest& request, const RenderStats& stats,
               const std::optional<Truth>& truth, const Frame& frame) {
-    fmt::print("{},{},{},{},{},{},{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.4f},{:.4f}", display, stats.method,
-               stats.source, stats.filter, stats.facePass, stats.lookup, request.meshStepPx, stats.faceSizePx,
-               stats.faces, stats.sourceTexels, stats.pairs, stats.frameMsMedian, stageMs(stats, "levels"),
-               stageMs(stats, "resample"), stats.geometricError.maxPx, stats.lookupError.maxPx);
+    fmt::print("{},{},{},{},{},{},{},{},{},{},{},{},{:.1f},{:.1f},{:.1f},{:.4f},{:.4f}", display,
+               stats.method, stats.source, stats.filter, stats.facePass, stats.lookup, request.meshStepPx,
+               request.samples, stats.faceSizePx, stats.faces, stats.sourceTexels, stats.pairs,
+               stats.frameMsMedian, stageMs(stats, "levels"), stageMs(stats, "resample"),
+               stats.geometricError.maxPx, stats.lookupError.maxPx);
     if (truth)
         fmt::print(",{:.4f},{:.2f}", 100 * compareColor(frame, truth->centres).shareOff,
                    compareColor(frame, truth->pixels).psnrDb);
@@ -116,10 +130,11 @@ void measureOn(const WallPtr& wall, const Display& display, const ScenePtr& scen
     base.method = Method::imageBased;
     Renderer renderer;
     std::optional<Truth> truth;
-    if (options.part == "filters") truth = truthOf(renderer, base);
+    if (options.part == "filters" || options.part == "samples") truth = truthOf(renderer, base);
     const auto all = options.part == "passes"    ? passes(base)
                      : options.part == "lookups" ? lookups(base)
                      : options.part == "sources" ? sources(base)
+                     : options.part == "samples" ? supersampled(base)
                                                  : filters(base);
     std::vector<RenderRequest> timed;
     std::vector<Frame> frames;
@@ -141,7 +156,8 @@ void measureOn(const WallPtr& wall, const Display& display, const ScenePtr& scen
 void measure(const Options& options) {
     const auto scene = std::make_shared<const Scene>(loadScene(options.scene));
     fmt::print(
-        "display,method,source,filter,faces,lookup,mesh_step_px,face_px,pictures,texels,pairs,frame_ms,"
+        "display,method,source,filter,faces,lookup,mesh_step_px,samples,face_px,pictures,texels,pairs,frame_"
+        "ms,"
         "levels_ms,resample_ms,error_px,lookup_error_px,wrong_percent,psnr_of_16_db\n");
     for (const std::string& file : options.walls) {
         const auto wall = std::make_shared<const Wall>(readWall(file));
@@ -158,7 +174,8 @@ int main(int argc, char** argv) {
     curvewall::Options options;
     CLI::App app("The image-based method's choices side by side, as CSV");
     app.add_option("walls", options.walls, "Wall files")->required();
-    app.add_option("--part", options.part)->check(CLI::IsMember({"passes", "lookups", "filters", "sources"}));
+    app.add_option("--part", options.part)
+        ->check(CLI::IsMember({"passes", "lookups", "filters", "sources", "samples"}));
     app.add_option("--scene", options.scene);
     app.add_option("--display", options.display);
     app.add_option("--frames", options.frames);

@@ -140,6 +140,20 @@ TEST(CubeSource, AHalfDomeHasAWholeFaceAndFourHalves) {
     }
 }
 
+TEST(CubeSource, HasAsManyFacesAsTheDisplaySees) {
+    const glm::ivec2 sizePx(240, 240);
+    const auto facesOf = [&](const Wall& wall) {
+        return cubeSource(PixelRays(*wall.displays[0].projection, wall.displays[0].sizePx), 64).faces.size();
+    };
+    // A band around the eye meets neither the ceiling nor the floor.
+    EXPECT_EQ(facesOf(test::cylinderWall({2, 2 * test::kPi, 1, {}, {}}, {}, {360, 60})), 4u);
+    // The corners of the face behind are the root of a third from the axis: five faces end there.
+    const double fiveDeg = 2 * glm::degrees(std::acos(-1 / std::sqrt(3.0)));
+    EXPECT_EQ(facesOf(domeWall(sizePx, 180)), 5u);
+    EXPECT_EQ(facesOf(domeWall(sizePx, fiveDeg - 4)), 5u);
+    EXPECT_EQ(facesOf(domeWall(sizePx, fiveDeg + 4)), 6u);
+}
+
 TEST(CubeSource, AHemicubeHoldsAHalfSpaceAndNoMore) {
     const glm::ivec2 sizePx(200, 200);
     const auto hemicubeOf = [&](const Wall& wall) {
@@ -153,8 +167,8 @@ TEST(CubeSource, AHemicubeHoldsAHalfSpaceAndNoMore) {
 }
 
 TEST(CubeSource, AHemicubeTurnsToAnAxisThatHoldsADisplaySeenFromTheSide) {
-    // Most pixels lie to the left of the eye, and leave the right end behind their mean direction.
-    const Wall wall = test::cylinderWall({2, 2.6, 1, {}, {}}, {-1.2, 0, 0.3}, {300, 200});
+    // Most pixels lie to the right of the eye, and leave the left end behind their mean direction.
+    const Wall wall = test::cylinderWall({2, 2.6, 1, {}, {}}, {-1.2, 0, -0.45}, {300, 200});
     const PixelRays rays(*wall.displays[0].projection, {300, 200});
     glm::dvec3 mean(0);
     double least = 1;

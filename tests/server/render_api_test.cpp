@@ -155,9 +155,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"format", json::array()}}, "format: expected a string, found a list"},
         Mistake{{{"frames", 2}},
                 "expected only the keys wall, scene, display, camera, eye, method, engine, tolerance_px, "
-                "source, filter, faces, lookup, mesh_step_px, face_size, samples, anisotropy, style, "
-                "output_kind, format, found the key "
-                "\"frames\""}));
+                "tessellation_px, source, filter, faces, lookup, mesh_step_px, face_size, bounds, samples, "
+                "anisotropy, style, output_kind, format, found the key \"frames\""}));
 
 class ImpossibleField : public ::testing::TestWithParam<Mistake> {};
 
@@ -183,7 +182,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "camera.yaw_deg: expected a number from"},
         Mistake{{{"eye", {0, 0, 1e8}}}, "eye[2]: expected a number from"},
         Mistake{{{"method", "magic"}},
-                R"(method: expected piecewise, image-based or reference, found "magic")"},
+                "method: expected piecewise, image-based, bounded-raycast, vertex-warp, reference or auto, "
+                "found \"magic\""},
+        Mistake{{{"bounds", "circle"}}, R"(bounds: expected triangle or quad, found "circle")"},
+        Mistake{{{"tessellation_px", -1}}, "tessellation_px: expected"},
         Mistake{{{"engine", "steam"}},
                 R"(engine: expected compute, geometry, tessellation or loop, found "steam")"},
         Mistake{{{"anisotropy", 17}}, "anisotropy: expected a whole number from 1 to 16, found 17"},
