@@ -34,25 +34,29 @@ Wall squareWall(const PlanarScreen& screen) {
     return {"square", {}, {}, {{"square", kDomeSizePx, "planar", std::move(projection)}}};
 }
 
+// Of the picture that the offsets deform, a metre ahead; `at` in shares of its width and height.
+constexpr glm::dvec2 kHalfPictureM(1, 0.75);
+glm::dvec3 picturePoint(glm::dvec2 at) {
+    const glm::dvec2 m = kHalfPictureM * (2.0 * at - 1.0);
+    return {m.x, -m.y, -1};
+}
+
 Wall cameraTextureWall() {
     const NodeMeaning offsets{.isOffset = true};
     auto map = std::make_shared<const GridMap>(projectorOffsets(), offsets, kSizePx, Alignment::corners);
-    const double across = std::atan(1.0), up = std::atan(0.75);
+    const double across = std::atan(kHalfPictureM.x), up = std::atan(kHalfPictureM.y);
     auto base = std::make_shared<FrustumProjection>(Frustum{-across, across, -up, up, {}}, kSizePx);
     auto projection = std::make_shared<CameraTexture>(std::move(map), std::move(base), MapDirection::forward);
     return {"camera texture", {}, {}, {{"projector", kSizePx, "camera_texture", std::move(projection)}}};
 }
 
-// As many cells in each row and column, with what the display shows at their corners.
-template <class PointAt>
-std::shared_ptr<const FittedPieces> evenPieces(glm::ivec2 cells, bool quads, const PointAt& pointAt) {
+// As many cells in each row and column; `vertexAt` takes shares of the width and the height.
+template <class VertexAt>
+std::shared_ptr<const FittedPieces> evenPieces(glm::ivec2 cells, bool quads, const VertexAt& vertexAt) {
     PieceGrid grid{kSizePx, cells.x, cells.y, {}};
     for (int row = 0; row <= cells.y; ++row)
-        for (int column = 0; column <= cells.x; ++column) {
-            const glm::dvec2 s =
-                snapToGrid(glm::dvec2(column, row) / glm::dvec2(cells) * glm::dvec2(kSizePx));
-            grid.vertices.push_back({pointAt(s), s});
-        }
+        for (int column = 0; column <= cells.x; ++column)
+            grid.vertices.push_back(vertexAt(glm::dvec2(column, row) / glm::dvec2(cells)));
     auto pieces = std::make_shared<FittedPieces>();
     pieces->mesh = meshFromGrid(grid, quads);
     pieces->owners = std::make_shared<const std::vector<int32_t>>(ownerImage(pieces->mesh));
@@ -96,23 +100,25 @@ PieceWall squareUp() {
 
 PieceWall evenCylinder(glm::ivec2 cells) {
     const CylinderWall cylinder = test::fullCylinder(kSizePx);
-    const auto pointAt = [&](glm::dvec2 s) {
+    const auto vertexAt = [&](glm::dvec2 at) {
+        const glm::dvec2 s = snapToGrid(at * glm::dvec2(kSizePx));
         const double angle = 2 * test::kPi * (s.x / kSizePx.x - 0.5);
-        return glm::dvec3(cylinder.radiusM * std::sin(angle), cylinder.heightM * (0.5 - s.y / kSizePx.y),
-                          -cylinder.radiusM * std::cos(angle));
+        return PieceVertex{{cylinder.radiusM * std::sin(angle), cylinder.heightM * (0.5 - s.y / kSizePx.y),
+                            -cylinder.radiusM * std::cos(angle)},
+                           s};
     };
     return {"even cylinder", std::make_shared<const Wall>(test::fullCylinderWall(kSizePx)),
-            kDefaultTolerancePx, evenPieces(cells, true, pointAt)};
+            kDefaultTolerancePx, evenPieces(cells, true, vertexAt)};
 }
 
 PieceWall evenCameraTexture(glm::ivec2 cells) {
     auto wall = std::make_shared<const Wall>(cameraTextureWall());
-    // On the plane of the base picture.
-    const auto pointAt = [&](glm::dvec2 s) {
-        const glm::dvec3 ray = wall->displays.front().projection->unproject(s).value();
-        return ray / -ray.z;
+    // On the plane of the base picture, which the map takes to the display.
+    const auto vertexAt = [&](glm::dvec2 at) {
+        const glm::dvec3 m = picturePoint(at);
+        return PieceVertex{m, snapToGrid(wall->displays.front().projection->project(m).at(0))};
     };
-    return {"even camera texture", wall, kDefaultTolerancePx, evenPieces(cells, false, pointAt)};
+    return {"even camera texture", wall, kDefaultTolerancePx, evenPieces(cells, false, vertexAt)};
 }
 
 RenderRequest requestFor(const PieceWall& wall, const ScenePtr& scene, int frames) {
