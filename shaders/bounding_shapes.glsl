@@ -195,10 +195,11 @@ SHARED_FN real shapeAzimuth(real2 towards, real3 direction) {
 
 SHARED_FN ShapeAzimuths azimuthsOf(SeenPolygon seen) {
     ShapeAzimuths azimuths;
-    azimuths.beside = true;
     real2 sum = real2(0.0, 0.0);
     for (int i = 0; i < seen.count; ++i) sum += shapeUnit(real2(seen.corners[i].x, seen.corners[i].y));
     azimuths.towards = shapeUnit(sum);
+    // Where they cancel out, as all around the axis, none is the middle.
+    azimuths.beside = length(sum) > 5e-4;
     azimuths.least = kShapeQuarterTurn;
     azimuths.most = -kShapeQuarterTurn;
     for (int i = 0; i < seen.count; ++i) {
