@@ -2,6 +2,7 @@
 // test of every pixel's ray in double precision, written apart from the renderer.
 
 #include "calibration/pieces/pixel_rays.h"
+#include "tests/renderer/seen_triangles.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/lens_walls.h"
 #include "tests/support/random_numbers.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -22,11 +24,12 @@ namespace {
 
 using test::kPi;
 using Corners = std::array<glm::vec3, 3>;
-constexpr glm::ivec2 kSizePx(192, 160);
 
 class BoundedTriangles : public test::GlTest, public testing::WithParamInterface<test::LensKind> {
 protected:
-    void expectExactCoverage(const std::vector<Corners>& triangles, const Orientation& orientation = {});
+    // Returns how many fragments there are for sure.
+    int expectExactCoverage(const std::vector<Corners>& triangles, const Orientation& orientation = {},
+                            glm::ivec2 sizePx = {192, 160});
     void expectReferencePicture(const Corners& triangle);
 
     Renderer renderer_;
@@ -39,44 +42,49 @@ INSTANTIATE_TEST_SUITE_P(EveryLens, BoundedTriangles, testing::ValuesIn(test::le
 // precision may see it otherwise: so near to an edge, to the limit, or to the plane through the eye.
 std::optional<bool> meets(const Corners& triangle, glm::dvec3 ray) {
     constexpr double kNearM = 1e-5, kEdgeDoubt = 1e-5, kPlaneDoubt = 1e-6;
-    const std::array<glm::dvec3, 3> p{triangle[0], triangle[1], triangle[2]};
+    std::array<glm::dvec3, 3> p{triangle[0], triangle[1], triangle[2]};
     int above = 0, below = 0;
     for (size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 plane = glm::cross(p[i], p[(i + 1) % 3] - p[i]);
-        const double height = glm::dot(ray, plane) / glm::length(plane);
-        above += height > kEdgeDoubt;
-        below += height < -kEdgeDoubt;
+        const glm::dvec3 from = p[i], to = p[(i + 1) % 3], plane = glm::cross(from, to - from);
+        const double nearer = std::min(glm::length(from), glm::length(to)), length = glm::distance(from, to);
+        const double doubt = std::max(kEdgeDoubt * glm::length(plane), kPlaneDoubt * nearer * length);
+        above += glm::dot(ray, plane) > doubt;
+        below += glm::dot(ray, plane) < -doubt;
     }
     if (above > 0 && below > 0) return false;
 
-    const glm::dvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-    const double side = glm::dot(p[0], normal),
-                 beyondNear = std::abs(side) - kNearM * std::abs(glm::dot(ray, normal));
-    const double doubt = kPlaneDoubt * glm::length(p[0]);
-    if (std::abs(side) < doubt) return std::nullopt;
+    const auto nearest =
+        std::ranges::min_element(p, {}, [](glm::dvec3 corner) { return glm::length(corner); });
+    std::ranges::rotate(p, nearest);
+    const glm::dvec3 second = p[1] - p[0], third = p[2] - p[0], normal = glm::cross(second, third);
+    const double size = glm::length(normal);
+    const double side = glm::dot(p[0], normal) / size;
+    const double beyondNear = std::abs(side) - kNearM * std::abs(glm::dot(ray, normal)) / size;
+    const double doubt = kPlaneDoubt * glm::length(p[0]) * glm::length(second) * glm::length(third) / size;
+    if (!(std::abs(side) >= doubt)) return std::nullopt;
     if ((side > 0 ? below : above) > 0 || beyondNear < -doubt) return false;
     if (above + below < 3 || beyondNear < doubt) return std::nullopt;
     return true;
 }
 
 RenderRequest requestFor(const test::LensKind& kind, const std::vector<Corners>& triangles,
-                         const Orientation& orientation) {
+                         const Orientation& orientation, glm::ivec2 sizePx) {
     Scene scene;
     startMaterial(scene, plainMaterial({0.2, 0.9, 0.4}));
     for (const Corners& triangle : triangles) addTriangle(scene, triangle);
-    RenderRequest request = test::requestFor(test::lensWall(kind, kSizePx, orientation), std::move(scene));
+    RenderRequest request = test::requestFor(test::lensWall(kind, sizePx, orientation), std::move(scene));
     request.method = Method::boundedRaycast;
     return request;
 }
 
-void BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles,
-                                           const Orientation& orientation) {
-    RenderRequest request = requestFor(GetParam(), triangles, orientation);
+int BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles,
+                                          const Orientation& orientation, glm::ivec2 sizePx) {
+    RenderRequest request = requestFor(GetParam(), triangles, orientation, sizePx);
     request.output = OutputKind::coverage;
-    const PixelRays rays(*request.wall->displays[0].projection, kSizePx);
+    const PixelRays rays(*request.wall->displays[0].projection, sizePx);
     std::vector<int> least, most;
-    for (int y = 0; y < kSizePx.y; ++y)
-        for (int x = 0; x < kSizePx.x; ++x) {
+    for (int y = 0; y < sizePx.y; ++y)
+        for (int x = 0; x < sizePx.x; ++x) {
             least.push_back(0);
             most.push_back(0);
             if (!rays.has({x, y})) continue;
@@ -98,10 +106,11 @@ void BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles
         EXPECT_EQ(missed, 0) << (bounds == BoundingShape::quad ? "quad" : "triangle");
         EXPECT_EQ(tooMany, 0) << (bounds == BoundingShape::quad ? "quad" : "triangle");
     }
+    return std::accumulate(least.begin(), least.end(), 0);
 }
 
 void BoundedTriangles::expectReferencePicture(const Corners& triangle) {
-    RenderRequest request = requestFor(GetParam(), {triangle}, {});
+    RenderRequest request = requestFor(GetParam(), {triangle}, {}, {192, 160});
     const Frame expected = test::referenceOf(request).frame;
     for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
         request.bounds = bounds;
@@ -198,6 +207,22 @@ TEST_P(BoundedTriangles, NearTheEye) {
         triangles.push_back(triangle);
     }
     expectExactCoverage(triangles);
+}
+
+// More than 100,000 over all lenses.
+TEST_P(BoundedTriangles, NoneOfManyRandomOnesIsMissed) {
+    constexpr int kBatches = 53, kTriangles = 100;
+    test::Random random(11);
+    int fragments = 0;
+    for (int i = 0; i < kBatches; ++i) {
+        std::vector<Corners> triangles;
+        while (triangles.size() < kTriangles) {
+            const test::Triangle triangle = test::anyTriangle(random);
+            triangles.push_back({float3(triangle[0]), float3(triangle[1]), float3(triangle[2])});
+        }
+        fragments += expectExactCoverage(triangles, {}, {96, 80});
+    }
+    EXPECT_GT(fragments, 100'000);
 }
 
 TEST_P(BoundedTriangles, AlongTheBorderAndTheHorizon) {

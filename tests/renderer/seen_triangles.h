@@ -3,18 +3,17 @@
 
 #include "calibration/projections/projection_maths.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/test_walls.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
 
 namespace curvewall::test {
 
-inline constexpr double kPi = std::numbers::pi;
 inline constexpr std::array kModels{maths::kOrthographic, maths::kStereographic, maths::kEquisolid,
                                     maths::kEquidistant, maths::kPolynomial};
 inline constexpr std::array kModelNames{"orthographic", "stereographic", "equisolid", "equidistant",
