@@ -19,11 +19,12 @@ namespace {
 constexpr double kBoundsGuardPx = 1.0 / 16;
 
 std::vector<std::string> definesOf(const BoundedPath& path) {
-    const bool isQuad = path.shape == BoundingShape::quad;
+    const bool isQuad = path.shape != BoundingShape::triangle;
     const int corners = (isQuad ? 4 : 12) + (path.isWide ? 12 : 0);
     std::vector<std::string> defines{"LENS " + std::to_string(static_cast<int>(path.lens)),
                                      "MOST_CORNERS " + std::to_string(corners)};
-    if (isQuad) defines.emplace_back("BOUNDS_QUAD");
+    if (path.shape == BoundingShape::quad) defines.emplace_back("BOUNDS_QUAD quadBounds");
+    if (path.shape == BoundingShape::genericQuad) defines.emplace_back("BOUNDS_QUAD genericBounds");
     if (path.isWide) defines.emplace_back("WIDE");
     if (!isQuad || path.isWide) defines.emplace_back("PARTED");
     if (path.perSample) defines.emplace_back("PER_SAMPLE");

@@ -117,7 +117,7 @@ void sendShapes(vec3 a, vec3 b, vec3 c, Carried carried) {
     const float quarterTurn = 1.57079633;
     float front = min(edgeRad, quarterTurn);
 #ifdef BOUNDS_QUAD
-    sendQuad(quadBounds(LENS, coefficients, front, margin, a, b, c), carried);
+    sendQuad(BOUNDS_QUAD(LENS, coefficients, front, margin, a, b, c), carried);
 #else
     sendTriangles(triangleBounds(LENS, coefficients, front, margin, a, b, c), carried);
 #endif
