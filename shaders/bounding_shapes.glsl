@@ -327,8 +327,8 @@ SHARED_FN ShapeOutline addSamples(ShapeOutline outline, const real c[kRadialTerm
 // The generic strategy (section 4.6): within its azimuths the arc is no further from the centre than its farther end, and
 // the tangent in the middle of the circle there bounds it. Where a lens bends lines either way, not their chord but the
 // circle of their nearest place bounds them inside.
-SHARED_FN ShapeOutline addSector(ShapeOutline outline, int model, const real c[kRadialTerms], real edge, real3 from,
-                                 real3 to, real2 p, real2 q) {
+SHARED_FN ShapeOutline addSector(ShapeOutline outline, int model, const real c[kRadialTerms], real edge, real slack,
+                                 real3 from, real3 to, real2 p, real2 q) {
     real far = max(length(p), length(q));
     real near = min(length(p), length(q));
     real2 left = shapeUnit(p);
@@ -340,7 +340,7 @@ SHARED_FN ShapeOutline addSector(ShapeOutline outline, int model, const real c[k
         outline = addPlace(outline, real2(far, far));
         return addPlace(outline, real2(-far, far));
     }
-    outline.reach = max(outline.reach, 4.0 * kShapeRounding * (far / near) * max(far, 1.0));
+    outline.reach = max(outline.reach, 4.0 * (kShapeRounding + slack) * (far / near) * max(far, 1.0));
     real stretched = far / sqrt(0.5 * (1.0 + cosine));
     outline = addPlace(outline, left * stretched);
     outline = addPlace(outline, right * stretched);
@@ -390,7 +390,7 @@ SHARED_FN ShapeOutline outlineOf(int model, const real c[kRadialTerms], real edg
         real3 normal = cross(from, to);
         real inside = dot(normal, sum);
         if (generic && (model == kPolynomial || inside * normal.z <= 0.0 || abs(inside) <= kShapeRounding)) {
-            outline = addSector(outline, model, c, edge, from, to, p, q);
+            outline = addSector(outline, model, c, edge, seen.slack, from, to, p, q);
         } else if (model == kPolynomial) {
             outline = addSamples(outline, c, edge, from, to, p, q);
         } else if (inside * normal.z > 0.0 && abs(inside) > kShapeRounding) {

@@ -2,6 +2,7 @@
 // test of every pixel's ray in double precision, written apart from the renderer.
 
 #include "calibration/pieces/pixel_rays.h"
+#include "renderer/names.h"
 #include "tests/renderer/seen_triangles.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/lens_walls.h"
@@ -24,6 +25,7 @@ namespace {
 
 using test::kPi;
 using Corners = std::array<glm::vec3, 3>;
+constexpr std::array kAllBounds{BoundingShape::triangle, BoundingShape::quad, BoundingShape::genericQuad};
 
 class BoundedTriangles : public test::GlTest, public testing::WithParamInterface<test::LensKind> {
 protected:
@@ -95,7 +97,7 @@ int BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles,
                 most.back() += met.value_or(true);
             }
         }
-    for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
+    for (const BoundingShape bounds : kAllBounds) {
         request.bounds = bounds;
         const Frame coverage = renderer_.render(request).frame;
         int missed = 0, tooMany = 0;
@@ -103,8 +105,8 @@ int BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles,
             missed += static_cast<int>(coverage.texels[i]) < least[i];
             tooMany += static_cast<int>(coverage.texels[i]) > most[i];
         }
-        EXPECT_EQ(missed, 0) << (bounds == BoundingShape::quad ? "quad" : "triangle");
-        EXPECT_EQ(tooMany, 0) << (bounds == BoundingShape::quad ? "quad" : "triangle");
+        EXPECT_EQ(missed, 0) << nameOf(bounds);
+        EXPECT_EQ(tooMany, 0) << nameOf(bounds);
     }
     return std::accumulate(least.begin(), least.end(), 0);
 }
@@ -112,7 +114,7 @@ int BoundedTriangles::expectExactCoverage(const std::vector<Corners>& triangles,
 void BoundedTriangles::expectReferencePicture(const Corners& triangle) {
     RenderRequest request = requestFor(GetParam(), {triangle}, {}, {192, 160});
     const Frame expected = test::referenceOf(request).frame;
-    for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
+    for (const BoundingShape bounds : kAllBounds) {
         request.bounds = bounds;
         EXPECT_LT(compareColor(renderer_.render(request).frame, expected).shareOff, 5e-5);
     }

@@ -4,6 +4,7 @@
 
 #include "calibration/errors.h"
 #include "calibration/pieces/pixel_rays.h"
+#include "renderer/names.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/shown_error.h"
 #include "tests/support/gl_fixture.h"
@@ -17,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace curvewall {
@@ -24,6 +26,7 @@ namespace {
 
 using test::kPi;
 constexpr glm::ivec2 kSizePx(256, 192);
+constexpr std::array kAllBounds{BoundingShape::triangle, BoundingShape::quad, BoundingShape::genericQuad};
 const test::LensKind kHalfTurn{"Equidistant180", {RadialModel::equidistant}, 180};
 
 RenderRequest boundedRequest(const Wall& wall, Scene scene, Camera camera = {}) {
@@ -72,7 +75,7 @@ TEST_P(EveryLens, AgreesWithTheReference) {
     }
 }
 
-TEST_P(EveryLens, BothBoundingShapesGiveTheSameBytes) {
+TEST_P(EveryLens, AllBoundingShapesGiveTheSameBytes) {
     RenderRequest request = boundedRequest(test::lensWall(GetParam(), kSizePx, test::kTurned),
                                            loadScene("city:2000"), cityCamera());
     for (const OutputKind output : {OutputKind::color, OutputKind::coverage}) {
@@ -80,6 +83,8 @@ TEST_P(EveryLens, BothBoundingShapesGiveTheSameBytes) {
         request.bounds = BoundingShape::triangle;
         const Frame triangle = frameOf(request);
         request.bounds = BoundingShape::quad;
+        EXPECT_EQ(frameOf(request).texels, triangle.texels);
+        request.bounds = BoundingShape::genericQuad;
         EXPECT_EQ(frameOf(request).texels, triangle.texels);
     }
 }
@@ -89,7 +94,7 @@ TEST_P(EveryLens, AClosedRoomCoversEveryRayExactlyOnce) {
     RenderRequest request = boundedRequest(test::lensWall(GetParam(), kSizePx), loadScene("room"));
     request.output = OutputKind::coverage;
     for (int i = 0; i < 30; ++i) {
-        request.bounds = i % 2 == 0 ? BoundingShape::triangle : BoundingShape::quad;
+        request.bounds = kAllBounds[static_cast<size_t>(i) % kAllBounds.size()];
         // Up to a centimetre from the walls.
         request.camera = {
             {random.uniform(-2.99, 2.99), random.uniform(-1.4, 1.4), random.uniform(-2.99, 2.99)},
@@ -247,7 +252,7 @@ TEST_F(BoundedRaycast, SurfacesMixFarToNear) {
     for (const test::LensKind& kind : {kHalfTurn, test::LensKind{"Wide", {RadialModel::equisolid}, 300}}) {
         RenderRequest request = boundedRequest(test::lensWall(kind, kSizePx, test::kTurned), scene);
         request.style = Style::unlit;
-        for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
+        for (const BoundingShape bounds : kAllBounds) {
             request.bounds = bounds;
             EXPECT_LT(shareOff(request), 2e-4) << kind.name;
         }
@@ -359,14 +364,14 @@ TEST_F(BoundedRaycast, StatsCountTheFragmentsOfFrameZero) {
         boundedRequest(test::lensWall(kHalfTurn, kSizePx), loadScene("city:2000"), cityCamera(20));
     request.output = OutputKind::coverage;
     request.measuresError = true;
-    for (const BoundingShape bounds : {BoundingShape::triangle, BoundingShape::quad}) {
+    for (const BoundingShape bounds : kAllBounds) {
         request.bounds = bounds;
         const RenderResult result = renderer_.render(request);
         double drawn = 0;
         for (const float count : result.frame.texels) drawn += count;
         EXPECT_EQ(static_cast<double>(result.stats.renderedFragments), drawn);
         EXPECT_GT(result.stats.coveredFragments, result.stats.renderedFragments);
-        EXPECT_EQ(result.stats.bounds, bounds == BoundingShape::quad ? "quad" : "triangle");
+        EXPECT_EQ(result.stats.bounds, nameOf(bounds));
         EXPECT_GT(result.stats.pairs, 0u);
         EXPECT_LT(result.stats.pairs, result.stats.triangles);  // those behind the lens are left out
     }

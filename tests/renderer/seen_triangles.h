@@ -95,6 +95,17 @@ inline Triangle anyNearEye(Random& random) {
     return triangle;
 }
 
+inline Triangle aroundTheAxis(Random& random) {
+    const double start = random.uniform(0, 2 * kPi);
+    Triangle triangle;
+    for (size_t i = 0; i < triangle.size(); ++i) {
+        const double azimuth = start + 2 * kPi / 3 * static_cast<double>(i);
+        triangle[i] =
+            random.uniform(0.5, 2) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), random.uniform(-2, 2));
+    }
+    return triangle;
+}
+
 inline Triangle anyTriangle(Random& random) {
     const double scale = power(random, -4, 7);
     Triangle triangle;
@@ -118,7 +129,11 @@ inline Triangle anyTriangle(Random& random) {
         case 4:
             triangle = anyNearEye(random);
             break;
-        case 5:  // around the axis, or close to it
+        case 5:  // around the axis, or close to it, or with azimuths that cancel out
+            if (random.uniform(0, 1) < 0.3) {
+                triangle = aroundTheAxis(random);
+                break;
+            }
             triangle = around(random, {0, 0, random.uniform(0, 1) < 0.8 ? -1 : 1}, power(random, -4, 0.5), 1);
             break;
         case 6:  // far and near corners
