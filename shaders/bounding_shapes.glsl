@@ -272,8 +272,10 @@ SHARED_FN ShapeOutline addPlace(ShapeOutline outline, real2 place) {
     return outline;
 }
 
-// A bounding line's normal, from the way of the side along it.
+// A bounding line's normal, from the way of the side along it; a side without extent, as lenses show some at the horizon,
+// has no way.
 SHARED_FN ShapeOutline addLine(ShapeOutline outline, real2 along) {
+    if (length(along) < 1e-12) return outline;
     outline.outward[outline.sides++] = shapeUnit(real2(along.y, -along.x)) * outline.turn;
     return outline;
 }

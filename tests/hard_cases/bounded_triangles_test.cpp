@@ -227,6 +227,43 @@ TEST_P(BoundedTriangles, NoneOfManyRandomOnesIsMissed) {
     EXPECT_GT(fragments, 100'000);
 }
 
+TEST_P(BoundedTriangles, WithTheEyeInTheirPlane) {
+    // Exactly; seen edge on, they show nothing, even around the eye.
+    expectReferencePicture({float3({-5, 0, -5}), float3({5, 0, -5}), float3({0, 0, 5})});
+    expectReferencePicture({float3({-5, 0, -5}), float3({5, 0, -5}), float3({0, 0, -1})});
+    expectReferencePicture({float3({0, -2, -3}), float3({0, 4, -3}), float3({0, 1, 8})});
+}
+
+TEST_P(BoundedTriangles, HardOnesTogetherGiveTheReferencePicture) {
+    // Not those whose corners are more than a million times farther than others: there the reference, too,
+    // rounds.
+    test::Random random(13);
+    Scene scene;
+    startMaterial(scene, plainMaterial({0.2, 0.9, 0.4}));
+    const auto add = [&](const test::Triangle& triangle) {
+        addTriangle(scene, {float3(triangle[0]), float3(triangle[1]), float3(triangle[2])});
+    };
+    for (int i = 0; i < 40; ++i) {
+        const double azimuth = random.uniform(0, 2 * kPi);
+        const glm::dvec3 horizon(std::cos(azimuth), std::sin(azimuth), 0);
+        add(test::around(random, random.uniform(1, 9) * horizon, 0.5, 1));
+        add(test::anySliver(random));
+        add(test::anyCrescent(random));
+    }
+    for (const glm::dvec3 originM : {glm::dvec3(0), glm::dvec3(1e6, -2e5, 3e6)}) {
+        scene.originM = originM;
+        RenderRequest request =
+            test::requestFor(test::lensWall(GetParam(), {192, 160}, test::kTurned), scene, {originM, {}});
+        request.method = Method::boundedRaycast;
+        const Frame expected = test::referenceOf(request).frame;
+        for (const BoundingShape bounds : kAllBounds) {
+            request.bounds = bounds;
+            EXPECT_LT(compareColor(renderer_.render(request).frame, expected).shareOff, 5e-4)
+                << nameOf(bounds);
+        }
+    }
+}
+
 TEST_P(BoundedTriangles, AlongTheBorderAndTheHorizon) {
     // Corners on the border of the picture and in the plane across the axis, exactly and by a hair.
     test::Random random(10);

@@ -7,6 +7,7 @@
 #include "renderer/names.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/shown_error.h"
+#include "tests/renderer/seen_triangles.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/lens_walls.h"
 #include "tests/support/random_numbers.h"
@@ -374,6 +375,37 @@ TEST_F(BoundedRaycast, StatsCountTheFragmentsOfFrameZero) {
         EXPECT_EQ(result.stats.bounds, nameOf(bounds));
         EXPECT_GT(result.stats.pairs, 0u);
         EXPECT_LT(result.stats.pairs, result.stats.triangles);  // those behind the lens are left out
+    }
+}
+
+// As the paper's table 3 counts: fragments of the bounds over those of what they bound.
+TEST_F(BoundedRaycast, FewFragmentsOfTrianglesBelowFiveDegreesAreInVain) {
+    test::Random random(12);
+    Scene small;
+    startMaterial(small, plainMaterial(glm::vec3(1)));
+    for (int i = 0; i < 3'000; ++i) {
+        const test::Triangle triangle = test::anySmall(random);
+        addTriangle(small, {3.0 * triangle[0], 3.0 * triangle[1], 3.0 * triangle[2]});
+    }
+    const auto scene = std::make_shared<const Scene>(std::move(small));
+    for (const test::LensKind& kind : test::lensKinds()) {
+        if (kind.fovDeg != 180) continue;
+        for (const int sizePx : {512, 1024}) {
+            RenderRequest request = boundedRequest(test::lensWall(kind, glm::ivec2(sizePx)), {});
+            request.scene = scene;
+            request.measuresError = true;
+            const auto overdraw = [&](BoundingShape bounds) {
+                request.bounds = bounds;
+                const RenderStats stats = renderer_.render(request).stats;
+                EXPECT_GT(stats.renderedFragments, 30'000u);
+                RecordProperty(kind.name + "_" + std::to_string(sizePx) + "_" + std::string(nameOf(bounds)),
+                               std::to_string(100 * stats.overdraw()));
+                return stats.overdraw();
+            };
+            EXPECT_LE(overdraw(BoundingShape::triangle), 0.15) << kind.name << ' ' << sizePx;
+            EXPECT_LE(overdraw(BoundingShape::quad), 1.20) << kind.name << ' ' << sizePx;
+            EXPECT_GT(overdraw(BoundingShape::genericQuad), 1.20) << kind.name << ' ' << sizePx;
+        }
     }
 }
 

@@ -160,24 +160,6 @@ double seenArea(const Lens& lens, const Triangle& triangle) {
     return std::abs(area);
 }
 
-// Corners anywhere within 2.5 degrees of a direction, all ahead.
-Triangle anySmall(test::Random& random) {
-    const double most = std::tan(2.5 * kPi / 180);
-    for (;;) {
-        const dvec3 centre = test::ahead(random);
-        Triangle triangle;
-        for (dvec3& corner : triangle) {
-            dvec3 aside;
-            do {
-                const dvec3 offset = random.inBox(most);
-                aside = offset - glm::dot(offset, centre) * centre;
-            } while (glm::length(aside) > most);
-            corner = glm::normalize(centre + aside);
-        }
-        if (std::ranges::all_of(triangle, [](dvec3 corner) { return corner.z < 0; })) return triangle;
-    }
-}
-
 TEST_P(BoundingShapes, SmallTrianglesAreBoundedTightly) {
     constexpr int kCount = 20'000;
     test::Random random(3);
@@ -185,7 +167,7 @@ TEST_P(BoundingShapes, SmallTrianglesAreBoundedTightly) {
     for (int i = 0; i < kCount; ++i) {
         const Lens lens = GetParam() == maths::kPolynomial ? test::anyPolynomial(random, kPi / 2)
                                                            : Lens{GetParam(), {}, kPi / 2};
-        const Triangle triangle = anySmall(random);
+        const Triangle triangle = test::anySmall(random);
         const BoundingShape shape = boundsInDouble(ShapeKind::triangle, lens, 0, triangle);
         seen += seenArea(lens, triangle);
         triangles += test::areaOf(shape);

@@ -160,6 +160,24 @@ inline Triangle anyTriangle(Random& random) {
     return triangle;
 }
 
+// Corners anywhere within 2.5 degrees of a direction, all ahead.
+inline Triangle anySmall(Random& random) {
+    const double most = std::tan(2.5 * kPi / 180);
+    for (;;) {
+        const glm::dvec3 centre = ahead(random);
+        Triangle triangle;
+        for (glm::dvec3& corner : triangle) {
+            glm::dvec3 aside;
+            do {
+                const glm::dvec3 offset = random.inBox(most);
+                aside = offset - glm::dot(offset, centre) * centre;
+            } while (glm::length(aside) > most);
+            corner = glm::normalize(centre + aside);
+        }
+        if (std::ranges::all_of(triangle, [](glm::dvec3 corner) { return corner.z < 0; })) return triangle;
+    }
+}
+
 // Increasing to the edge, whatever it does beyond.
 inline Lens anyPolynomial(Random& random, double edge) {
     Lens lens{maths::kPolynomial, {}, edge};
