@@ -1,5 +1,5 @@
 // Flat shapes around the picture of a triangle through a round lens, after Gascuel, Holzschuch, Fournier and Péroche,
-// "Fast Non-Linear Projections using Graphics Hardware" (I3D 2008); derivations in docs/bounding-shapes.md. Corners
+// "Fast Non-Linear Projections using Graphics Hardware" (I3D 2008); derivations in docs/bounded-raycast.md. Corners
 // a, b, c are seen from the eye in lens axes (forward -z, x right, y up); a place in the picture is as in
 // shaders/projections/radial.glsl, which comes before this file. Legal GLSL and legal C++ under GLM; C++ includes it
 // through renderer/bounding_shapes.h.
