@@ -637,7 +637,9 @@ SHARED_FN BoundingTriangles ringBounds(int model, const real coefficients[kRadia
     if (seen.count == 0 || least - doubt >= edge) return noTriangles();
 
     real rim = radialRadius(model, coefficients, edge);
-    real reach = margin + kShapeRounding * rim;
+    // The terms of a polynomial may be larger than their sum.
+    real size = model == kPolynomial ? rim + shapeScale(model, coefficients, edge) : rim;
+    real reach = margin + kShapeRounding * size;
     ShapeAzimuths azimuths = azimuthsOf(seen);
     if (!azimuths.beside) {
         real side = rim + reach;
