@@ -32,7 +32,8 @@ constexpr Named<SourceFilter> kFilters[] = {{SourceFilter::nearest, "nearest"},
 constexpr Named<FacePass> kFacePasses[] = {{FacePass::separate, "separate"}, {FacePass::layered, "layered"}};
 constexpr Named<SourceLookup> kLookups[] = {{SourceLookup::pixel, "pixel"}, {SourceLookup::mesh, "mesh"}};
 constexpr Named<BoundingShape> kBoundingShapes[] = {{BoundingShape::triangle, "triangle"},
-                                                    {BoundingShape::quad, "quad"}};
+                                                    {BoundingShape::quad, "quad"},
+                                                    {BoundingShape::genericQuad, "generic-quad"}};
 constexpr Named<Style> kStyles[] = {{Style::textured, "textured"},
                                     {Style::unlit, "unlit"},
                                     {Style::wireframe, "wireframe"},

@@ -15,15 +15,23 @@
 namespace curvewall {
 namespace {
 
-// Bounding shapes reach so far beyond what they bound, for the rounding of shapes and of the rasterizer.
-constexpr double kBoundsGuardPx = 1.0 / 16;
+// Bounding shapes reach so far beyond what they bound: the rasterizer rounds corners to its grid, which
+// OpenGL wants to have 16 lines a pixel at least, and positions in clip space have the roundings of single
+// precision.
+double boundsGuardPx() {
+    GLint subpixelBits = 4;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &subpixelBits);
+    constexpr double kClipSpaceRoundingPx = 1.0 / 256;
+    return std::exp2(-subpixelBits) + kClipSpaceRoundingPx;
+}
 
 std::vector<std::string> definesOf(const BoundedPath& path) {
-    const bool isQuad = path.shape == BoundingShape::quad;
+    const bool isQuad = path.shape != BoundingShape::triangle;
     const int corners = (isQuad ? 4 : 12) + (path.isWide ? 12 : 0);
     std::vector<std::string> defines{"LENS " + std::to_string(static_cast<int>(path.lens)),
                                      "MOST_CORNERS " + std::to_string(corners)};
-    if (isQuad) defines.emplace_back("BOUNDS_QUAD");
+    if (path.shape == BoundingShape::quad) defines.emplace_back("BOUNDS_QUAD quadBounds");
+    if (path.shape == BoundingShape::genericQuad) defines.emplace_back("BOUNDS_QUAD genericBounds");
     if (path.isWide) defines.emplace_back("WIDE");
     if (!isQuad || path.isWide) defines.emplace_back("PARTED");
     if (path.perSample) defines.emplace_back("PER_SAMPLE");
@@ -44,7 +52,7 @@ void setLens(GLuint program, const RoundLens& lens) {
     glProgramUniform2fv(program, 40, 1, &focal[0]);
     glProgramUniform1f(program, 41, static_cast<float>(lens.edgeRad));
     glProgramUniform1f(program, 42,
-                       static_cast<float>(kBoundsGuardPx / std::min(lens.focalPx.x, lens.focalPx.y)));
+                       static_cast<float>(boundsGuardPx() / std::min(lens.focalPx.x, lens.focalPx.y)));
     glProgramUniformMatrix3fv(program, 43, 1, GL_FALSE, &wallFromLens[0][0]);
 }
 

@@ -44,13 +44,29 @@ struct Carried {
     float depth;  // nothing of the triangle is nearer
 };
 
+float squareOf(vec3 v) {
+    precise float square = v.x * v.x + v.y * v.y + v.z * v.z;
+    return square;
+}
+
 // Neighbours must have the same plane but for its sign, to the last bit, so that each ray is above one of them: built from
-// the ends in an order that both know, and relative to one of them, so that short edges are as exact as long ones.
+// the ends in an order that both know, and relative to the nearer one, so that short edges are as exact as long ones.
 vec3 edgePlane(vec3 p, vec3 q) {
-    bool swapped = p.x != q.x ? p.x > q.x : p.y != q.y ? p.y > q.y : p.z > q.z;
+    float ofP = squareOf(p), ofQ = squareOf(q);
+    bool swapped = ofP != ofQ ? ofP > ofQ : p.x != q.x ? p.x > q.x : p.y != q.y ? p.y > q.y : p.z > q.z;
     vec3 from = swapped ? q : p, way = swapped ? p - q : q - p;
     precise vec3 plane = from.yzx * way.zxy - from.zxy * way.yzx;
     return swapped ? -plane : plane;
+}
+
+// xyz is normal to the triangle's plane, and w that times any of its points: of the nearest corner, since the roundings are
+// a share of its distance.
+vec4 planeOf(vec3 a, vec3 b, vec3 c) {
+    float ofA = squareOf(a), ofB = squareOf(b), ofC = squareOf(c);
+    bool isB = ofB < ofA && ofB <= ofC, isC = ofC < ofA && !isB;
+    vec3 near = isB ? b : isC ? c : a;
+    vec3 normal = cross((isB ? c : isC ? a : b) - near, (isB ? a : isC ? b : c) - near);
+    return vec4(normal, dot(near, normal));
 }
 
 // At most 1 / distance of any point of the triangle, whose plane is 1 / `toPlane` away.
@@ -101,7 +117,7 @@ void sendShapes(vec3 a, vec3 b, vec3 c, Carried carried) {
     const float quarterTurn = 1.57079633;
     float front = min(edgeRad, quarterTurn);
 #ifdef BOUNDS_QUAD
-    sendQuad(quadBounds(LENS, coefficients, front, margin, a, b, c), carried);
+    sendQuad(BOUNDS_QUAD(LENS, coefficients, front, margin, a, b, c), carried);
 #else
     sendTriangles(triangleBounds(LENS, coefficients, front, margin, a, b, c), carried);
 #endif
@@ -113,8 +129,8 @@ void sendShapes(vec3 a, vec3 b, vec3 c, Carried carried) {
 
 void main() {
     vec3 a = corner[0], b = corner[1], c = corner[2];
-    vec3 normal = cross(b - a, c - a);
-    float determinant = dot(a, normal);
+    vec4 plane = planeOf(a, b, c);
+    float determinant = plane.w;
     if (determinant == 0.0 || isnan(determinant) || isinf(determinant)) return;
     bool behind = determinant > 0.0;
 #ifdef SINGLE_SIDED
@@ -123,7 +139,7 @@ void main() {
     Carried carried;
     carried.edgePlanes = vec3[](edgePlane(b, c), edgePlane(c, a), edgePlane(a, b));
     for (int i = 0; i < 3; ++i) carried.edgePlanes[i] = behind ? carried.edgePlanes[i] : -carried.edgePlanes[i];
-    vec3 inverse = normal / determinant;
+    vec3 inverse = plane.xyz / determinant;
     float farthest = sqrt(max(dot(a, a), max(dot(b, b), dot(c, c))));
     carried.inverseDistance = vec4(inverse, 1.0 / farthest);
     carried.vertices = uvec4(cornerVertex[0], cornerVertex[1], cornerVertex[2], behind ? SEEN_FROM_BEHIND : 0u);

@@ -1,5 +1,5 @@
 // Flat shapes around the picture of a triangle through a round lens, after Gascuel, Holzschuch, Fournier and Péroche,
-// "Fast Non-Linear Projections using Graphics Hardware" (I3D 2008); derivations in docs/bounding-shapes.md. Corners
+// "Fast Non-Linear Projections using Graphics Hardware" (I3D 2008); derivations in docs/bounded-raycast.md. Corners
 // a, b, c are seen from the eye in lens axes (forward -z, x right, y up); a place in the picture is as in
 // shaders/projections/radial.glsl, which comes before this file. Legal GLSL and legal C++ under GLM; C++ includes it
 // through renderer/bounding_shapes.h.
@@ -195,10 +195,11 @@ SHARED_FN real shapeAzimuth(real2 towards, real3 direction) {
 
 SHARED_FN ShapeAzimuths azimuthsOf(SeenPolygon seen) {
     ShapeAzimuths azimuths;
-    azimuths.beside = true;
     real2 sum = real2(0.0, 0.0);
     for (int i = 0; i < seen.count; ++i) sum += shapeUnit(real2(seen.corners[i].x, seen.corners[i].y));
     azimuths.towards = shapeUnit(sum);
+    // Where they cancel out, as all around the axis, none is the middle.
+    azimuths.beside = length(sum) > 5e-4;
     azimuths.least = kShapeQuarterTurn;
     azimuths.most = -kShapeQuarterTurn;
     for (int i = 0; i < seen.count; ++i) {
@@ -220,6 +221,17 @@ SHARED_FN bool comesNearer(real3 from, real3 to) {
     return from.z < -0.5 ? from.x * away.x + from.y * away.y < 0.0 : away.z < 0.0;
 }
 
+// Hardly more than the least angle from the axis ahead on the arc between directions ahead.
+SHARED_FN real nearestOnArc(real3 from, real3 to) {
+    real atEnds = min(shapeAngle(from), shapeAngle(to));
+    // Where the arc comes nearer from both ends, its plane's point nearest to the axis is on it.
+    if (!comesNearer(from, to) || !comesNearer(to, from)) return atEnds;
+    real3 normal = cross(from, to);
+    real between = atan(abs(normal.z), length(real2(normal.x, normal.y)));
+    between -= 0.1 * kShapeRounding / max(length(normal), 1e-20);
+    return min(atEnds, max(between, atEnds - 2.0 * length(to - from)));
+}
+
 // Less than any angle from the axis ahead (or behind) in a polygon that does not contain it, and hardly less.
 SHARED_FN real nearestToAxis(SeenPolygon seen, bool ahead) {
     real nearest = 2.0 * kShapeQuarterTurn;
@@ -230,15 +242,7 @@ SHARED_FN real nearestToAxis(SeenPolygon seen, bool ahead) {
             from.z = -from.z;
             to.z = -to.z;
         }
-        real atEnds = min(shapeAngle(from), shapeAngle(to));
-        nearest = min(nearest, atEnds);
-        // Where the arc comes nearer from both ends, its plane's point nearest to the axis is on it.
-        if (comesNearer(from, to) && comesNearer(to, from)) {
-            real3 normal = cross(from, to);
-            real between = atan(abs(normal.z), length(real2(normal.x, normal.y)));
-            between -= 0.1 * kShapeRounding / max(length(normal), 1e-20);
-            nearest = min(nearest, max(between, atEnds - 2.0 * length(to - from)));
-        }
+        nearest = min(nearest, nearestOnArc(from, to));
     }
     return nearest - kShapeRounding - seen.slack;
 }
@@ -268,8 +272,10 @@ SHARED_FN ShapeOutline addPlace(ShapeOutline outline, real2 place) {
     return outline;
 }
 
-// A bounding line's normal, from the way of the side along it.
+// A bounding line's normal, from the way of the side along it; a side without extent, as lenses show some at the horizon,
+// has no way.
 SHARED_FN ShapeOutline addLine(ShapeOutline outline, real2 along) {
+    if (length(along) < 1e-12) return outline;
     outline.outward[outline.sides++] = shapeUnit(real2(along.y, -along.x)) * outline.turn;
     return outline;
 }
@@ -320,7 +326,35 @@ SHARED_FN ShapeOutline addSamples(ShapeOutline outline, const real c[kRadialTerm
     return addLine(outline, q - p);
 }
 
-SHARED_FN ShapeOutline outlineOf(int model, const real c[kRadialTerms], real edge, real margin, SeenPolygon seen) {
+// The generic strategy (section 4.6): within its azimuths the arc is no further from the centre than its farther end, and
+// the tangent in the middle of the circle there bounds it. Where a lens bends lines either way, not their chord but the
+// circle of their nearest place bounds them inside.
+SHARED_FN ShapeOutline addSector(ShapeOutline outline, int model, const real c[kRadialTerms], real edge, real slack,
+                                 real3 from, real3 to, real2 p, real2 q) {
+    real far = max(length(p), length(q));
+    real near = min(length(p), length(q));
+    real2 left = shapeUnit(p);
+    real2 right = shapeUnit(q);
+    real cosine = dot(left, right);
+    if (cosine < -0.5 || near < 0.01 * far) {
+        outline = addPlace(outline, real2(-far, -far));
+        outline = addPlace(outline, real2(far, -far));
+        outline = addPlace(outline, real2(far, far));
+        return addPlace(outline, real2(-far, far));
+    }
+    outline.reach = max(outline.reach, 4.0 * (kShapeRounding + slack) * (far / near) * max(far, 1.0));
+    real stretched = far / sqrt(0.5 * (1.0 + cosine));
+    outline = addPlace(outline, left * stretched);
+    outline = addPlace(outline, right * stretched);
+    if (model != kPolynomial) return outline;
+    real nearest = min(shapeRadius(c, edge, max(nearestOnArc(from, to) - kShapeRounding, 0.0)), near);
+    outline = addPlace(outline, left * nearest);
+    return addPlace(outline, right * nearest);
+}
+
+// Tight, or by the generic strategy, for up to four corners.
+SHARED_FN ShapeOutline outlineOf(int model, const real c[kRadialTerms], real edge, real margin, bool generic,
+                                 SeenPolygon seen) {
     ShapeOutline outline;
     outline.points = 0;
     outline.sides = 0;
@@ -357,7 +391,9 @@ SHARED_FN ShapeOutline outlineOf(int model, const real c[kRadialTerms], real edg
         outline.girth += length(q - p);
         real3 normal = cross(from, to);
         real inside = dot(normal, sum);
-        if (model == kPolynomial) {
+        if (generic && (model == kPolynomial || inside * normal.z <= 0.0 || abs(inside) <= kShapeRounding)) {
+            outline = addSector(outline, model, c, edge, seen.slack, from, to, p, q);
+        } else if (model == kPolynomial) {
             outline = addSamples(outline, c, edge, from, to, p, q);
         } else if (inside * normal.z > 0.0 && abs(inside) > kShapeRounding) {
             // The axis is on the other side, and nothing of the arc is in front of its chord.
@@ -501,7 +537,7 @@ SHARED_FN BoundingTriangles triangleBounds(int model, const real coefficients[kR
     BoundingTriangles whole = noTriangles();
     SeenPolygon seen = seenAhead(edge, a, b, c);
     if (seen.count == 0) return whole;
-    ShapeOutline outline = outlineOf(model, coefficients, edge, margin, seen);
+    ShapeOutline outline = outlineOf(model, coefficients, edge, margin, false, seen);
     ShapePolygon shape = leastShape(outline, 4);
     whole = addFan(whole, shape);
     whole.before = whole.count;
@@ -514,26 +550,43 @@ SHARED_FN BoundingTriangles triangleBounds(int model, const real coefficients[kR
     SeenPolygon left = cutPolygon(seen, cut.cut);
     SeenPolygon right = cutPolygon(seen, -cut.cut);
     if (left.count == 0 || right.count == 0) return whole;
-    ShapePolygon leftShape = leastShape(outlineOf(model, coefficients, edge, margin, left), 3);
+    ShapePolygon leftShape = leastShape(outlineOf(model, coefficients, edge, margin, false, left), 3);
     ShapePolygon rightShape =
-        leastShape(outlineOf(model, coefficients, edge, margin, right), 6 - leftShape.count);
+        leastShape(outlineOf(model, coefficients, edge, margin, false, right), 6 - leftShape.count);
     if (leftShape.count + rightShape.count > 8 || leftShape.area + rightShape.area > 0.8 * shape.area) return whole;
     cut = addFan(cut, leftShape);
     cut.before = cut.count;
     return addFan(cut, rightShape);
 }
 
-// The same as one rectangle.
-SHARED_FN BoundingQuad quadBounds(int model, const real coefficients[kRadialTerms], real edge, real margin, real3 a,
-                                  real3 b, real3 c) {
+SHARED_FN BoundingQuad quadOf(ShapePolygon box) {
     BoundingQuad quad;
-    quad.count = 0;
-    SeenPolygon seen = seenAhead(edge, a, b, c);
-    if (seen.count == 0) return quad;
-    ShapePolygon box = leastBox(outlineOf(model, coefficients, edge, margin, seen));
     quad.count = 1;
     for (int i = 0; i < 4; ++i) quad.corners[i] = box.corners[i];
     return quad;
+}
+
+SHARED_FN BoundingQuad noQuad() {
+    BoundingQuad quad;
+    quad.count = 0;
+    return quad;
+}
+
+// The same as one rectangle.
+SHARED_FN BoundingQuad quadBounds(int model, const real coefficients[kRadialTerms], real edge, real margin, real3 a,
+                                  real3 b, real3 c) {
+    SeenPolygon seen = seenAhead(edge, a, b, c);
+    if (seen.count == 0) return noQuad();
+    return quadOf(leastBox(outlineOf(model, coefficients, edge, margin, false, seen)));
+}
+
+// By the generic strategy, with sides along the axes.
+SHARED_FN BoundingQuad genericBounds(int model, const real coefficients[kRadialTerms], real edge, real margin, real3 a,
+                                     real3 b, real3 c) {
+    SeenPolygon seen = seenAhead(edge, a, b, c);
+    if (seen.count == 0) return noQuad();
+    ShapeOutline outline = outlineOf(model, coefficients, edge, margin, true, seen);
+    return quadOf(boxAround(outline, real2(1.0, 0.0)));
 }
 
 // ---- Behind ------------------------------------------------------------------------------------------------------
@@ -584,7 +637,9 @@ SHARED_FN BoundingTriangles ringBounds(int model, const real coefficients[kRadia
     if (seen.count == 0 || least - doubt >= edge) return noTriangles();
 
     real rim = radialRadius(model, coefficients, edge);
-    real reach = margin + kShapeRounding * rim;
+    // The terms of a polynomial may be larger than their sum.
+    real size = model == kPolynomial ? rim + shapeScale(model, coefficients, edge) : rim;
+    real reach = margin + kShapeRounding * size;
     ShapeAzimuths azimuths = azimuthsOf(seen);
     if (!azimuths.beside) {
         real side = rim + reach;

@@ -35,7 +35,7 @@ double missOf(std::span<const glm::dvec2> corners, glm::dvec2 place) {
 }
 
 std::vector<std::span<const glm::dvec2>> partsOf(const BoundingShape& shape) {
-    const size_t size = shape.kind == ShapeKind::quad ? 4 : 3;
+    const size_t size = isQuad(shape.kind) ? 4 : 3;
     std::vector<std::span<const glm::dvec2>> parts;
     for (size_t i = 0; i + size <= shape.corners.size(); i += size)
         parts.push_back(std::span(shape.corners).subspan(i, size));
@@ -45,7 +45,7 @@ std::vector<std::span<const glm::dvec2>> partsOf(const BoundingShape& shape) {
 // Those that hold what is seen in this direction.
 std::vector<std::span<const glm::dvec2>> partsOf(const BoundingShape& shape, glm::dvec3 direction) {
     std::vector<std::span<const glm::dvec2>> parts = partsOf(shape);
-    if (shape.kind == ShapeKind::quad) return parts;
+    if (isQuad(shape.kind)) return parts;
     const auto middle = parts.begin() + shape.before;
     return glm::dot(shape.cut, direction) >= 0 ? std::vector(parts.begin(), middle)
                                                : std::vector(middle, parts.end());

@@ -8,7 +8,9 @@
 
 namespace curvewall::test {
 
-enum class ShapeKind { triangle, quad, ring };
+enum class ShapeKind { triangle, quad, genericQuad, ring };
+
+inline bool isQuad(ShapeKind kind) { return kind == ShapeKind::quad || kind == ShapeKind::genericQuad; }
 
 struct BoundingShape {
     ShapeKind kind = ShapeKind::triangle;

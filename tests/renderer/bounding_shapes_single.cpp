@@ -28,8 +28,8 @@ test::BoundingShape shapeOf(test::ShapeKind kind, const BoundingTriangles& trian
     return shape;
 }
 
-test::BoundingShape shapeOf(const BoundingQuad& quad) {
-    test::BoundingShape shape{test::ShapeKind::quad, {}};
+test::BoundingShape shapeOf(test::ShapeKind kind, const BoundingQuad& quad) {
+    test::BoundingShape shape{kind, {}};
     shape.corners.assign(quad.corners, quad.corners + 4 * quad.count);
     return shape;
 }
@@ -43,8 +43,10 @@ BoundingShape boundsInSingle(ShapeKind kind, const SingleLens& lens, float margi
                              const std::array<glm::vec3, 3>& triangle) {
     const auto& [a, b, c] = triangle;
     const float* terms = lens.coefficients.data();
-    if (kind == ShapeKind::quad)
-        return single::shapeOf(single::quadBounds(lens.model, terms, lens.edge, margin, a, b, c));
+    if (isQuad(kind)) {
+        const auto bounds = kind == ShapeKind::quad ? single::quadBounds : single::genericBounds;
+        return single::shapeOf(kind, bounds(lens.model, terms, lens.edge, margin, a, b, c));
+    }
     const auto bounds = kind == ShapeKind::ring ? single::ringBounds : single::triangleBounds;
     return single::shapeOf(kind, bounds(lens.model, terms, lens.edge, margin, a, b, c));
 }

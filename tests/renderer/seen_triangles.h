@@ -3,18 +3,17 @@
 
 #include "calibration/projections/projection_maths.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/test_walls.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
 
 namespace curvewall::test {
 
-inline constexpr double kPi = std::numbers::pi;
 inline constexpr std::array kModels{maths::kOrthographic, maths::kStereographic, maths::kEquisolid,
                                     maths::kEquidistant, maths::kPolynomial};
 inline constexpr std::array kModelNames{"orthographic", "stereographic", "equisolid", "equidistant",
@@ -96,6 +95,17 @@ inline Triangle anyNearEye(Random& random) {
     return triangle;
 }
 
+inline Triangle aroundTheAxis(Random& random) {
+    const double start = random.uniform(0, 2 * kPi);
+    Triangle triangle;
+    for (size_t i = 0; i < triangle.size(); ++i) {
+        const double azimuth = start + 2 * kPi / 3 * static_cast<double>(i);
+        triangle[i] =
+            random.uniform(0.5, 2) * glm::dvec3(std::cos(azimuth), std::sin(azimuth), random.uniform(-2, 2));
+    }
+    return triangle;
+}
+
 inline Triangle anyTriangle(Random& random) {
     const double scale = power(random, -4, 7);
     Triangle triangle;
@@ -119,7 +129,11 @@ inline Triangle anyTriangle(Random& random) {
         case 4:
             triangle = anyNearEye(random);
             break;
-        case 5:  // around the axis, or close to it
+        case 5:  // around the axis, or close to it, or with azimuths that cancel out
+            if (random.uniform(0, 1) < 0.3) {
+                triangle = aroundTheAxis(random);
+                break;
+            }
             triangle = around(random, {0, 0, random.uniform(0, 1) < 0.8 ? -1 : 1}, power(random, -4, 0.5), 1);
             break;
         case 6:  // far and near corners
@@ -144,6 +158,24 @@ inline Triangle anyTriangle(Random& random) {
     }
     for (glm::dvec3& corner : triangle) corner = rounded(scale * corner);
     return triangle;
+}
+
+// Corners anywhere within 2.5 degrees of a direction, all ahead.
+inline Triangle anySmall(Random& random) {
+    const double most = std::tan(2.5 * kPi / 180);
+    for (;;) {
+        const glm::dvec3 centre = ahead(random);
+        Triangle triangle;
+        for (glm::dvec3& corner : triangle) {
+            glm::dvec3 aside;
+            do {
+                const glm::dvec3 offset = random.inBox(most);
+                aside = offset - glm::dot(offset, centre) * centre;
+            } while (glm::length(aside) > most);
+            corner = glm::normalize(centre + aside);
+        }
+        if (std::ranges::all_of(triangle, [](glm::dvec3 corner) { return corner.z < 0; })) return triangle;
+    }
 }
 
 // Increasing to the edge, whatever it does beyond.
