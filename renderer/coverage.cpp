@@ -5,6 +5,7 @@
 #include "renderer/part_splitting.h"
 #include "renderer/piece_coverage.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ GlProgram computeProgram(std::string_view file, std::vector<std::string> defines
     return makeProgram({{GL_COMPUTE_SHADER, file}}, defines);
 }
 
-constexpr size_t kPartBytes = sizeof(glm::uvec4);
+constexpr size_t kPartBytes = 3 * sizeof(glm::vec2);
 
 std::vector<std::string> withWarp(std::vector<std::string> screenMap) {
     screenMap.emplace_back("WARP");
