@@ -109,8 +109,8 @@ bool useLens(const Lens& lens, glm::dvec2 sizePx, ScreenMap& map) {
     return true;
 }
 
-// Where positions jump, in the frame of a lens: at the poles of what turns around an axis, and straight behind
-// round maps, which go on to there in every direction.
+// Where positions jump, in the frame of a lens: at the poles of what turns around an axis, and straight
+// behind round maps, which go on to there in every direction.
 std::vector<glm::dvec3> jumpsOf(const ScreenMap& map) {
     if (map.numbers.size.z > 0) return {{0, 1, 0}, {0, -1, 0}};
     if (map.numbers.size.w > 0) return {{1, 0, 0}, {-1, 0, 0}};

@@ -95,8 +95,7 @@ ivec2 turnsWithin(float least, float most, float extentPx, float turnPx) {
     return ivec2(begin, clamp(end - begin, 0, TURN_BIAS - begin));
 }
 
-const uint TOO_MANY = 1u << 27u;  // more than any buffer holds
-
+bool isUnfinished = false;          // walk() could not go through all
 void take(uint piece, uint nth);  // what the includer does with the nth part
 
 // No map repeats along both.
@@ -109,7 +108,7 @@ ivec2 turnsOf(ScreenBox box) {
 
 bool areBetween(vec2 a, vec2 b) { return fract(0.5 * (a + b) * WEIGHT_STEPS) == vec2(0.0); }
 
-// Takes the parts of the triangle, `most` of them, and counts them; TOO_MANY where it could not go through all. `begin` and `end` are those of a piece tree.
+// Takes the parts of the triangle, `most` of them, and counts them. `begin` and `end` are those of a piece tree.
 uint walk(RayTriangle t, uint begin, uint end, uint most) {
     const mat3x2 WHOLE = mat3x2(1.0, 0.0, 0.0, 1.0, 0.0, 0.0);
     const int MOST_OPEN = 64;  // each division leaves one for later, and halves an edge
@@ -169,6 +168,6 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         open[openCount++] = first;
         open[openCount++] = second;
     }
-    bool isFinished = openCount == 0 && turns.y == 0 || count == most;
-    return isFinished ? count : TOO_MANY;
+    isUnfinished = (openCount > 0 || turns.y > 0) && count < most;
+    return count;
 }
