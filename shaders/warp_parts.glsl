@@ -33,11 +33,13 @@ bool turnsFarAround(vec4 jump, vec3 a, vec3 b) {
     return isAhead && dot(besideA, besideB) <= WIDEST_COSINE * length(besideA) * length(besideB);
 }
 
+bool turnsFar(vec3 a, vec3 b) { return turnsFarAround(torn[0], a, b) || turnsFarAround(torn[1], a, b); }
+
 bool isLong(vec3 a, vec3 b, vec2 pxA, vec2 pxMiddle, vec2 pxB) {
 #ifdef PROJECTIVE
     return false;  // straight whatever its length
 #else
-    if (cosineBetween(a, b) < WIDEST_COSINE || turnsFarAround(torn[0], a, b) || turnsFarAround(torn[1], a, b)) return true;
+    if (cosineBetween(a, b) < WIDEST_COSINE || turnsFar(a, b)) return true;
     float askedPx = finish.y;
     if (askedPx == 0.0) return false;
     vec2 lengthsPx = edgeLengthsPx(pxA, pxMiddle, pxB);
@@ -157,7 +159,9 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         float least = min(min(cosines.x, cosines.y), cosines.z);
         if (least > 1.5 || openCount + 2 > MOST_OPEN) {
             partCorners = part;
-            if (!isWide && !box.isTorn) turns = turnsOf(box);
+            // What still turns far is too small to be divided, and would be seen far from where it is.
+            bool isDrawn = !isWide && !box.isTorn && !turnsFar(p.a, p.b) && !turnsFar(p.b, p.c) && !turnsFar(p.c, p.a);
+            if (isDrawn) turns = turnsOf(box);
             continue;
         }
         int from = least == cosines.x ? 0 : least == cosines.y ? 1 : 2, to = (from + 1) % 3;
