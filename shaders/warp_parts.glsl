@@ -29,7 +29,7 @@ float cosineBetween(vec3 a, vec3 b) { return dot(a, b) / max(length(a) * length(
 bool turnsFarAround(vec4 jump, vec3 a, vec3 b) {
     float alongA = dot(jump.xyz, a), alongB = dot(jump.xyz, b);
     vec3 besideA = a - alongA * jump.xyz, besideB = b - alongB * jump.xyz;
-    bool isAhead = alongA * length(b) + alongB * length(a) > 0.0;
+    bool isAhead = alongA > 0.0 || alongB > 0.0;
     return isAhead && dot(besideA, besideB) <= WIDEST_COSINE * length(besideA) * length(besideB);
 }
 
