@@ -1,10 +1,12 @@
 #include "renderer/coverage.h"
 
+#include "calibration/errors.h"
 #include "renderer/meshlets.h"
 #include "renderer/pair_drawing.h"
 #include "renderer/part_splitting.h"
 #include "renderer/piece_coverage.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -28,7 +30,7 @@ GlProgram computeProgram(std::string_view file, std::vector<std::string> defines
     return makeProgram({{GL_COMPUTE_SHADER, file}}, defines);
 }
 
-constexpr size_t kPartBytes = sizeof(glm::uvec4);
+constexpr size_t kPartBytes = 3 * sizeof(glm::vec2);
 
 std::vector<std::string> withWarp(std::vector<std::string> screenMap) {
     screenMap.emplace_back("WARP");
@@ -150,12 +152,12 @@ void Coverage::allocate() {
     commands_ = makeBuffer(nullptr, kDrawCommandBytes * ranges);
     constexpr GLbitfield kMapping =
         GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const size_t totalBytes = 2 * sizeof(uint32_t) * std::max<size_t>(parts_.size(), 1);
+    const size_t totalBytes = sizeof(Totals) * std::max<size_t>(parts_.size(), 1);
     totalsBuffer_ = makeBuffer(nullptr, totalBytes, kMapping);
-    totals_ = static_cast<volatile uint32_t*>(
+    totals_ = static_cast<volatile Totals*>(
         glMapNamedBufferRange(totalsBuffer_.id(), 0, static_cast<GLsizeiptr>(totalBytes), kMapping));
     if (!totals_) throw std::runtime_error("OpenGL could not map a buffer");
-    std::fill_n(totals_, 2 * parts_.size(), 0u);
+    for (size_t i = 0; i < parts_.size(); ++i) takeTotals(i);
 }
 
 void Coverage::findPairs(size_t index, const GpuPieces& pieces, const SceneView& view, glm::vec4 sampleGrid,
@@ -207,6 +209,7 @@ void Coverage::setForPart(size_t index, const SceneView& view) {
     for (const GlProgram* program : {&mark_, &count_, &emit_}) setView(program->id(), view);
     for (const GlProgram* program : {&scanMeshlets_, &scanPairs_})
         glProgramUniform1ui(program->id(), 7, static_cast<GLuint>(index));
+    if (findsParts_) glProgramUniform1ui(count_.id(), 7, static_cast<GLuint>(index));
     for (const GlProgram* program : {&emit_, &commandsProgram_})
         glProgramUniform1ui(program->id(), 5, capacity_);
     glProgramUniform1ui(commandsProgram_.id(), 8, static_cast<uint32_t>(part.ranges.size()));
@@ -229,14 +232,26 @@ void Coverage::run(const ScenePart& part, const BindForTriangles& bindForTriangl
              kResults | GL_COMMAND_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
 }
 
+Coverage::Totals Coverage::takeTotals(size_t part) {
+    volatile Totals& of = totals_[part];
+    return {std::exchange(of.pairs, 0), std::exchange(of.meshlets, 0), std::exchange(of.unfinished, 0)};
+}
+
 FrameOutcome Coverage::finishFrame() {
     FrameOutcome outcome;
     std::vector<uint32_t> needed(parts_.size());
+    bool isUnfinished = false;
     for (size_t i = 0; i < parts_.size(); ++i) {
-        needed[i] = std::exchange(pairsOf(i), 0);
-        outcome.pairCount += needed[i];
-        outcome.meshletCount += std::exchange(meshletsOf(i), 0);
+        const Totals totals = takeTotals(i);
+        isUnfinished = isUnfinished || totals.unfinished != 0;
+        needed[i] = totals.pairs;
+        outcome.pairCount += totals.pairs;
+        outcome.meshletCount += totals.meshlets;
     }
+    if (isUnfinished)
+        throw UsageError(
+            "a triangle is seen so large that it has too many parts for so short a tessellation length; a "
+            "longer one has fewer");
     if (const auto room = roomFor(parts_, needed, capacity_, mostPairs_)) {
         outcome.overflowed = true;
         capacity_ = *room;

@@ -82,8 +82,12 @@ private:
     void bindForPart(const ScenePart& part);
     void setForPart(size_t part, const SceneView& view);
     void run(const ScenePart& part, const BindForTriangles& bindForTriangles, StageTimer* timer);
-    volatile uint32_t& pairsOf(size_t part) { return totals_[2 * part]; }
-    volatile uint32_t& meshletsOf(size_t part) { return totals_[2 * part + 1]; }
+    // What the GPU has counted of a part.
+    struct Totals {
+        uint32_t pairs, meshlets;
+        uint32_t unfinished;  // vertex-warp: not 0 where a triangle has more parts than could be found
+    };
+    Totals takeTotals(size_t part);
 
     GlProgram scanMeshlets_, gather_, scanPairs_, commandsProgram_, mark_, count_, emit_;
     std::vector<ScenePart> parts_;
@@ -95,7 +99,7 @@ private:
     size_t rangeCapacity_ = 0;
     GlBuffer groupSeen_, meshletNodes_, seen_, placeOf_, dispatch_;
     GlBuffer groupPairs_, found_, pairs_, triangleParts_, commands_, totalsBuffer_;
-    volatile uint32_t* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
+    volatile Totals* totals_ = nullptr;  // totalsBuffer_, mapped for as long as it lives
 };
 
 }  // namespace curvewall

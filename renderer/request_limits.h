@@ -7,7 +7,7 @@ inline constexpr double kDefaultTolerancePx = 0.25;
 inline constexpr double kLeastTolerancePx = 0.001;
 inline constexpr double kMostTolerancePx = 100;
 // Of vertex-warp; 0 is allowed as well.
-inline constexpr double kLeastTessellationPx = 0.5;
+inline constexpr double kLeastTessellationPx = 1;
 inline constexpr double kMostTessellationPx = 1000;
 inline constexpr int kLeastFacePx = 16;
 inline constexpr int kMostFacePx = 8192;

@@ -52,15 +52,6 @@ void useProjective(const glm::dmat3& pixelFromRay, ScreenMap& map) {
     map.numbers.displayFromWall = rowsOf(pixelFromRay);
 }
 
-void useCylinder(const CylinderProjection& cylinder, glm::dvec2 sizePx, ScreenMap& map) {
-    map.defines = {"CYLINDER"};
-    const CylinderWall& wall = cylinder.wall();
-    map.numbers.displayFromWall = rowsOf(glm::transpose(cylinder.worldFromCylinder()));
-    map.numbers.eyeOnSurface = glm::vec4(cylinder.eyeInCylinderM(), wall.radiusM);
-    map.numbers.pixels = glm::vec4(0.5 * sizePx, sizePx.x / wall.arcRad, -sizePx.y / wall.heightM);
-    map.numbers.size.z = static_cast<float>(turnPx({wall.arcRad, sizePx.x}));
-}
-
 void useRadial(const RadialLens& lens, ScreenMap& map) {
     const RadialFunction& function = lens.function();
     ScreenMapNumbers& numbers = map.numbers;
@@ -118,19 +109,36 @@ bool useLens(const Lens& lens, glm::dvec2 sizePx, ScreenMap& map) {
     return true;
 }
 
-// Round maps go on to the direction behind the axis, which would have to be everywhere.
-bool tearsBehindAxis(const ScreenMap& map) {
-    return map.numbers.size.z == 0 && map.numbers.size.w == 0 && map.defines.front() != "PROJECTIVE";
+// Where positions jump, in the frame of a lens: at the poles of what turns around an axis, and straight
+// behind round maps, which go on to there in every direction.
+std::vector<glm::dvec3> jumpsOf(const ScreenMap& map) {
+    if (map.numbers.size.z > 0) return {{0, 1, 0}, {0, -1, 0}};
+    if (map.numbers.size.w > 0) return {{1, 0, 0}, {-1, 0, 0}};
+    return {{0, 0, 1}};
 }
 
-void tearAt(glm::dvec3 direction, ScreenMap& map) {
-    if (tearsBehindAxis(map)) map.numbers.torn = glm::vec4(glm::normalize(direction), 1);
+// `inWall` gives the direction from the eye of one in the map's frame.
+template <class InWall>
+void tearWhereItJumps(ScreenMap& map, const InWall& inWall) {
+    const std::vector<glm::dvec3> jumps = jumpsOf(map);
+    for (size_t i = 0; i < jumps.size(); ++i)
+        map.numbers.torn.at(i) = glm::vec4(glm::normalize(inWall(jumps[i])), 1);
+}
+
+void useCylinder(const CylinderProjection& cylinder, glm::dvec2 sizePx, ScreenMap& map) {
+    map.defines = {"CYLINDER"};
+    const CylinderWall& wall = cylinder.wall();
+    map.numbers.displayFromWall = rowsOf(glm::transpose(cylinder.worldFromCylinder()));
+    map.numbers.eyeOnSurface = glm::vec4(cylinder.eyeInCylinderM(), wall.radiusM);
+    map.numbers.pixels = glm::vec4(0.5 * sizePx, sizePx.x / wall.arcRad, -sizePx.y / wall.heightM);
+    map.numbers.size.z = static_cast<float>(turnPx({wall.arcRad, sizePx.x}));
+    tearWhereItJumps(map, [&](glm::dvec3 jump) { return cylinder.worldFromCylinder() * jump; });
 }
 
 bool useLensAtInfinity(const LensProjection& projection, glm::dvec2 sizePx, ScreenMap& map) {
     if (!useLens(projection.lens(), sizePx, map)) return false;
     map.numbers.displayFromWall = rowsOf(glm::transpose(projection.worldFromLens()));
-    tearAt(projection.worldFromLens()[2], map);
+    tearWhereItJumps(map, [&](glm::dvec3 jump) { return projection.worldFromLens() * jump; });
     return true;
 }
 
@@ -143,10 +151,11 @@ bool useLensInDome(const DomeProjection& projection, glm::dvec2 sizePx, ScreenMa
     map.numbers.displayFromWall = rowsOf(lensFromWall);
     map.numbers.eyeOnSurface = glm::vec4(lensFromWall * (projection.eyeM() - dome.centerM), dome.radiusM);
     map.numbers.lensOnSurface = glm::vec4(lensFromWall * lensOnDome, 0);
-    const glm::dvec3 behind = projection.worldFromLens()[2];
-    tearAt(projection.lensM() + maths::sphereDistance(dome.radiusM, lensOnDome, behind) * behind -
-               projection.eyeM(),
-           map);
+    tearWhereItJumps(map, [&](glm::dvec3 jump) {
+        const glm::dvec3 ray = projection.worldFromLens() * jump;
+        return projection.lensM() + maths::sphereDistance(dome.radiusM, lensOnDome, ray) * ray -
+               projection.eyeM();
+    });
     return true;
 }
 
@@ -162,7 +171,7 @@ void useTable(const PositionTable& table, double widestRad, ScreenMap& map) {
     numbers.beyondTable = glm::vec4(table.pxFromChart[0], table.pxFromChart[1]);
     map.tableNodes = table.nodes;
     map.table.assign(table.px.begin(), table.px.end());
-    tearAt(glm::transpose(table.chart.chartFromWall)[2], map);
+    tearWhereItJumps(map, [&](glm::dvec3 jump) { return glm::transpose(table.chart.chartFromWall) * jump; });
 }
 
 struct Cone {
@@ -225,9 +234,9 @@ ScreenMap screenMapOf(const Display& display, const PixelRays& rays) {
     ScreenMapNumbers& numbers = map.numbers;
     const Cone seen = Cone::about(rays);
     chooseMap(display, rays, seen, map);
-    // Pixels reach beyond their centres.
-    constexpr double kMarginRad = 0.02;
-    const double halfRad = std::min(1.01 * seen.halfRad + kMarginRad, kPi);
+    // Pixels reach beyond their centres, and straight lines into the display from beside it.
+    constexpr double kMarginRad = 0.02, kReach = 1.1;
+    const double halfRad = std::min(kReach * seen.halfRad + kMarginRad, kPi);
     numbers.seenCone = glm::vec4(seen.axis, std::cos(halfRad));
     numbers.size.x = static_cast<float>(display.sizePx.x);
     numbers.size.y = static_cast<float>(display.sizePx.y);

@@ -23,11 +23,11 @@ struct ScreenMapNumbers {
     std::array<glm::vec4, 3> terms{}, tilt{};
     glm::vec4 tableBox{0}, beyondTable{0};
     glm::vec4 seenCone{0};
-    glm::vec4 torn{0};
+    std::array<glm::vec4, 2> torn{};
     glm::vec4 size{0};
     glm::vec4 finish{0};
 };
-static_assert(sizeof(ScreenMapNumbers) == 19 * sizeof(glm::vec4));
+static_assert(sizeof(ScreenMapNumbers) == 20 * sizeof(glm::vec4));
 
 struct ScreenMap {
     std::vector<std::string> defines;  // what the shaders are compiled with

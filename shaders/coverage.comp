@@ -7,7 +7,7 @@ layout(local_size_x = GROUP_SIZE) in;
 
 #ifdef WARP
 #include "warp_parts.glsl"
-layout(std430, binding = 8) writeonly buffer Parts { uvec4 parts[]; };  // of each pair: the part's corners, where divided
+layout(std430, binding = 8) writeonly buffer Parts { vec2 parts[]; };  // of each pair: the part's three corners, where divided
 #else
 #include "piece_coverage.glsl"
 #endif
@@ -21,6 +21,11 @@ layout(std430, binding = 5) readonly buffer MeshletNodes { uvec2 meshletNodes[];
 layout(std430, binding = 6) writeonly buffer Pairs { uvec2 pairs[]; };  // triangle and facing, piece
 layout(std430, binding = 7) buffer Found { uvec4 found[]; };            // KEPT pieces of each triangle, count and facing
 layout(std430, binding = 10) readonly buffer Seen { uint seen[]; };     // meshlets that show something
+
+#if defined(WARP) && defined(COUNT)
+layout(std430, binding = 13) writeonly buffer Totals { uint totals[]; };  // of each part, as renderer/coverage.h has them
+layout(location = 7) uniform uint part;
+#endif
 
 layout(location = 3) uniform uint firstMeshlet;
 layout(location = 5) uniform uint capacity;  // of `pairs`; what lies beyond is drawn in another part
@@ -38,7 +43,11 @@ uint count(uint triangle, bool isSingleSided, uvec2 nodeRange) {
     RayTriangle t = rayTriangleAt(triangle);
     bool behind = t.facing > 0.0;
     if (behind && isSingleSided) return 0u;
-    return walk(t, nodeRange.x, nodeRange.y, ALL_PIECES) | (behind ? SEEN_FROM_BEHIND : 0u);
+    uint pieces = walk(t, nodeRange.x, nodeRange.y, ALL_PIECES);
+#ifdef WARP
+    if (isUnfinished) pieces = 0u;  // nobody sees the frame, which need not take long then
+#endif
+    return pieces | (behind ? SEEN_FROM_BEHIND : 0u);
 }
 #else
 uint next, most;  // pair of this invocation's triangle, and how many it has
@@ -48,7 +57,7 @@ void take(uint piece, uint nth) {
     if (next + nth >= capacity) return;
     pairs[next + nth] = uvec2(triangleAndFacing, piece);
 #ifdef WARP
-    parts[next + nth] = uvec4(partCorners, 0u);
+    for (uint i = 0u; i < 3u; ++i) parts[3u * (next + nth) + i] = partCorners[i];
 #endif
 }
 #endif
@@ -61,6 +70,9 @@ void main() {
 #ifdef COUNT
     uint counted = isTriangle ? count(m.firstTriangle + self, m.isSingleSided != 0u, meshletNodes[index]) : 0u;
     found[slot] = uvec4(kept, counted);
+#ifdef WARP
+    if (isUnfinished) totals[3u * part + 2u] = 1u;
+#endif
     uint pairCount = counted & ~SEEN_FROM_BEHIND;
     uint before = groupPrefix(pairCount);
     if (self == GROUP_SIZE - 1u) groupPairs[gl_WorkGroupID.x] = before + pairCount;

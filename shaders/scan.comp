@@ -5,7 +5,7 @@ layout(local_size_x = GROUP_SIZE) in;
 
 layout(std430, binding = 4) buffer Counts { uint counts[]; };  // one more at the end becomes the sum of all
 layout(std430, binding = 12) buffer Dispatch { uint dispatch[3]; };
-layout(std430, binding = 13) buffer Totals { uint totals[]; };  // pairs and meshlets of each part; the CPU reads them later
+layout(std430, binding = 13) buffer Totals { uint totals[]; };  // of each part, as renderer/coverage.h has them
 
 #ifdef MESHLETS
 layout(location = 6) uniform uint groupCount;
@@ -46,9 +46,9 @@ void main() {
         dispatch[0] = sums[self];
         dispatch[1] = 1u;
         dispatch[2] = 1u;
-        uint total = 2u * part + 1u;
+        uint total = 3u * part + 1u;
 #else
-        uint total = 2u * part;
+        uint total = 3u * part;
 #endif
         totals[total] = max(totals[total], sums[self]);  // of the passes of a frame
     }

@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform ScreenMap {
     vec4 tableBox;            // TABLE: the chart's least position, nodes a unit of it
     vec4 beyondTable;         // TABLE: columns of pixels from what a chart position lies beside the table
     vec4 seenCone;            // holds all that the display shows: axis, wall axes, length one, and cosine of half its width
-    vec4 torn;                // the direction that no neighbourhood is drawn around, wall axes; w: 1 where there is one
+    vec4 torn[2];             // directions that positions jump at, wall axes, length one; w: 1, or 0 where there is none
     vec4 size;                // of the display, px; then how many px the map repeats after along x and along y, 0 for never
     vec4 finish;              // 1 / distance to the wall; the length of edges that is asked for, px, or 0
 };

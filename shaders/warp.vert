@@ -11,7 +11,7 @@ layout(std430, binding = 3) readonly buffer Normals { uint normals[]; };
 layout(std430, binding = 4) readonly buffer Uvs { vec2 uvs[]; };
 layout(std430, binding = 5) readonly buffer Commands { DrawCommand commands[]; };
 layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };  // triangle and facing, turn of the map and whether divided
-layout(std430, binding = 8) readonly buffer Parts { uvec4 parts[]; };  // corners of those that are divided
+layout(std430, binding = 8) readonly buffer Parts { vec2 parts[]; };       // three corners of each that is divided
 layout(location = 13) uniform uint command;
 
 layout(location = 0) out vec3 ray;
@@ -56,7 +56,7 @@ void main() {
     for (int i = 0; i < 3; ++i) triangleRays[i] = rayToVertex(vertexIndices[i]);
     mat3 at = mat3(1.0);
     if ((pair.y & IS_DIVIDED) != 0u)
-        at = mat3(weightsOf(parts[index].x), weightsOf(parts[index].y), weightsOf(parts[index].z));
+        at = mat3(weightsOf(parts[3u * index]), weightsOf(parts[3u * index + 1u]), weightsOf(parts[3u * index + 2u]));
 
     ray = rayAt(at[corner]);
     vec3 shares = sharesAt(at[corner]);
@@ -81,8 +81,7 @@ void main() {
     if (!none) {
         vec3 from = rayAt(at[(corner + 1u) % 3u]), to = rayAt(at[(corner + 2u) % 3u]);
         float lengthPx = edgeLengthsPx(pixelsOf(from), pixelsOf(pointBetween(from, to, 1.0, 1.0)), pixelsOf(to)).x;
-        // Only where weights went no further is it more. With 64, llvmpipe (Mesa 22.3) loses triangles.
-        level = clamp(ceil(lengthPx / finish.y), 1.0, 4.0 * MOST_DIVISIONS);
+        level = clamp(ceil(lengthPx / finish.y), 1.0, MOST_DIVISIONS);
     }
 #endif
     referenceAndLevel = vec3(reference, level);

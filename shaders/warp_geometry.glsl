@@ -3,12 +3,16 @@
 
 #include "screen_position.glsl"
 
-const uint DENOMINATOR = 32768u;      // of a corner's weights within its triangle
+// A part's corners have dyadic weights within the triangle, so that sums of two are exact. Seen from close above, a plane that
+// reaches to the horizon needs that many steps.
+const float WEIGHT_STEPS = 1048576.0;
 const uint IS_DIVIDED = 0x40000000u;  // a part that is not the whole triangle, beside its turn of the map
 const int TURN_BIAS = 8;
-// Of an edge by the tessellator: a part with one long and one short edge gets as many triangles as one with three long
-// edges, which costs more than to divide it first.
-const float MOST_DIVISIONS = 8.0;
+// Of an edge by the tessellator. A part with one long and one short edge gets as many triangles as one with three long
+// edges, which costs more than to divide it first; but parts that are small themselves only cost. With 64 divisions,
+// llvmpipe (Mesa 22.3) loses triangles.
+const float FEW_DIVISIONS = 8.0, MOST_DIVISIONS = 32.0;
+const float SMALL_PART_PX = 64.0;
 
 bool comesBefore(vec3 a, vec3 b) {
     if (a.x != b.x) return a.x < b.x;
@@ -47,11 +51,11 @@ vec3 pointWithin(vec3 a, vec3 b, vec3 c, vec3 at) {
     return shares.x * a + shares.y * b + shares.z * c;
 }
 
-// The weights of a part's corner.
-vec3 weightsOf(uint corner) {
-    uint x = corner & 0xffffu, y = corner >> 16u;
-    return vec3(x, y, DENOMINATOR - x - y) / float(DENOMINATOR);
-}
+// The weights of a part's corner, of which two are kept.
+vec3 weightsOf(vec2 corner) { return vec3(corner, 1.0 - corner.x - corner.y); }
+
+// How long the edges of a part may be on the screen.
+float longestEdgePx() { return clamp(SMALL_PART_PX, FEW_DIVISIONS * finish.y, MOST_DIVISIONS * finish.y); }
 
 vec2 pixelsOf(vec3 ray) {
     vec3 h = screenPosition(ray);

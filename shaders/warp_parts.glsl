@@ -24,16 +24,27 @@ RayTriangle rayTriangleAt(uint triangle) {
 
 float cosineBetween(vec3 a, vec3 b) { return dot(a, b) / max(length(a) * length(b), 1e-30); }
 
+// Whether an edge goes more than 45 degrees around a direction that positions jump at: straight on the screen, it would
+// sweep across what lies between (the malevolent behaviour of large triangles that Oros ends with). One that ends there does.
+bool turnsFarAround(vec4 jump, vec3 a, vec3 b) {
+    float alongA = dot(jump.xyz, a), alongB = dot(jump.xyz, b);
+    vec3 besideA = a - alongA * jump.xyz, besideB = b - alongB * jump.xyz;
+    bool isAhead = alongA > 0.0 || alongB > 0.0;
+    return isAhead && dot(besideA, besideB) <= WIDEST_COSINE * length(besideA) * length(besideB);
+}
+
+bool turnsFar(vec3 a, vec3 b) { return turnsFarAround(torn[0], a, b) || turnsFarAround(torn[1], a, b); }
+
 bool isLong(vec3 a, vec3 b, vec2 pxA, vec2 pxMiddle, vec2 pxB) {
 #ifdef PROJECTIVE
     return false;  // straight whatever its length
 #else
-    if (cosineBetween(a, b) < WIDEST_COSINE) return true;
+    if (cosineBetween(a, b) < WIDEST_COSINE || turnsFar(a, b)) return true;
     float askedPx = finish.y;
     if (askedPx == 0.0) return false;
     vec2 lengthsPx = edgeLengthsPx(pxA, pxMiddle, pxB);
     // Equal steps must be about equally long.
-    return lengthsPx.x > MOST_DIVISIONS * askedPx || (lengthsPx.x > 4.0 * lengthsPx.y && lengthsPx.x > 2.0 * askedPx);
+    return lengthsPx.x > longestEdgePx() || (lengthsPx.x > 4.0 * lengthsPx.y && lengthsPx.x > 2.0 * askedPx);
 #endif
 }
 
@@ -42,7 +53,7 @@ struct Part {
     vec3 a, b, c;
     vec2 pxA, pxB, pxC, pxAb, pxBc, pxCa;
 };
-uvec3 partCorners;  // of the part that is taken
+mat3x2 partCorners;  // of the part that is taken
 
 bool isPartBesideDisplay(Part p) {
     vec3 a = normalize(p.a), b = normalize(p.b), c = normalize(p.c);
@@ -55,11 +66,10 @@ bool isPartBesideDisplay(Part p) {
     return isBesideDisplay(middle, sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
 }
 
-bool isAroundTornDirection(Part p, float facing) {
-    if (torn.w == 0.0) return false;
-    float side = facing < 0.0 ? -1.0 : 1.0;
-    return side * dot(torn.xyz, cross(p.a, p.b - p.a)) >= 0.0 && side * dot(torn.xyz, cross(p.b, p.c - p.b)) >= 0.0 &&
-           side * dot(torn.xyz, cross(p.c, p.a - p.c)) >= 0.0 && dot(torn.xyz, p.a + p.b + p.c) > 0.0;
+bool isAround(vec4 jump, Part p, float facing) {
+    vec3 axis = facing < 0.0 ? -jump.xyz : jump.xyz;
+    return jump.w > 0.0 && dot(axis, cross(p.a, p.b - p.a)) >= 0.0 && dot(axis, cross(p.b, p.c - p.b)) >= 0.0 &&
+           dot(axis, cross(p.c, p.a - p.c)) >= 0.0 && dot(jump.xyz, p.a + p.b + p.c) > 0.0;
 }
 
 // The box of a part on the screen, with what its edges may bulge, counted on from its first corner where the map repeats.
@@ -87,42 +97,41 @@ ivec2 turnsWithin(float least, float most, float extentPx, float turnPx) {
     return ivec2(begin, clamp(end - begin, 0, TURN_BIAS - begin));
 }
 
+bool isUnfinished = false;          // walk() could not go through all
 void take(uint piece, uint nth);  // what the includer does with the nth part
 
-uint takeTurns(ScreenBox box, bool isWhole, uint count, uint most) {
+// No map repeats along both.
+ivec2 turnsOf(ScreenBox box) {
     ivec2 across = turnsWithin(box.least.x, box.most.x, size.x, size.z);
     ivec2 down = turnsWithin(box.least.y, box.most.y, size.y, size.w);
-    // No map repeats along both.
-    ivec2 turns = size.w > 0.0 ? down : across;
-    int times = across.y > 0 && down.y > 0 ? turns.y : 0;
-    for (int i = 0; i < times && count < most; ++i)
-        take(uint(turns.x + i + TURN_BIAS) | (isWhole ? 0u : IS_DIVIDED), count++);
-    return count;
+    if (across.y == 0 || down.y == 0) return ivec2(0);
+    return size.w > 0.0 ? down : across;
 }
 
-// The middle of an edge, or NOT_BETWEEN where weights go no further.
-const uint NOT_BETWEEN = 0xffffffffu;
-uint middleOf(uint a, uint b) {
-    uvec2 sum = uvec2((a & 0xffffu) + (b & 0xffffu), (a >> 16u) + (b >> 16u));
-    if (((sum.x | sum.y) & 1u) != 0u) return NOT_BETWEEN;
-    return sum.x / 2u | sum.y / 2u << 16u;
-}
+bool areBetween(vec2 a, vec2 b) { return fract(0.5 * (a + b) * WEIGHT_STEPS) == vec2(0.0); }
 
 // Takes the parts of the triangle, `most` of them, and counts them. `begin` and `end` are those of a piece tree.
 uint walk(RayTriangle t, uint begin, uint end, uint most) {
-    const uint WHOLE_A = DENOMINATOR, WHOLE_B = DENOMINATOR << 16u, WHOLE_C = 0u;
-    const int MOST_OPEN = 40;   // each division leaves one for later, and halves a weight
-    const int MOST_STEPS = 1 << 20;
-    uvec3 open[MOST_OPEN];
-    open[0] = uvec3(WHOLE_A, WHOLE_B, WHOLE_C);
+    const mat3x2 WHOLE = mat3x2(1.0, 0.0, 0.0, 1.0, 0.0, 0.0);
+    const int MOST_OPEN = 64;  // each division leaves one for later, and halves an edge
+    const int MOST_STEPS = 60000;
+    mat3x2 open[MOST_OPEN];
+    open[0] = WHOLE;
     int openCount = 1;
     uint count = 0u;
-    for (int step = 0; step < MOST_STEPS && openCount > 0 && count < most; ++step) {
-        uvec3 part = open[--openCount];
+    ivec2 turns = ivec2(0);  // of the part in hand: the next that is taken, and how many are left
+    // One loop, for llvmpipe (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together.
+    for (int step = 0; step < MOST_STEPS && (openCount > 0 || turns.y > 0) && count < most; ++step) {
+        if (turns.y > 0) {
+            take(uint(turns.x + TURN_BIAS) | (partCorners == WHOLE ? 0u : IS_DIVIDED), count++);
+            turns += ivec2(1, -1);
+            continue;
+        }
+        mat3x2 part = open[--openCount];
         Part p;
-        p.a = pointWithin(t.a, t.b, t.c, weightsOf(part.x));
-        p.b = pointWithin(t.a, t.b, t.c, weightsOf(part.y));
-        p.c = pointWithin(t.a, t.b, t.c, weightsOf(part.z));
+        p.a = pointWithin(t.a, t.b, t.c, weightsOf(part[0]));
+        p.b = pointWithin(t.a, t.b, t.c, weightsOf(part[1]));
+        p.c = pointWithin(t.a, t.b, t.c, weightsOf(part[2]));
         if (isPartBesideDisplay(p)) continue;
         bool isWide = min(min(cosineBetween(p.a, p.b), cosineBetween(p.b, p.c)), cosineBetween(p.c, p.a)) < WIDEST_COSINE;
 #ifdef PROJECTIVE
@@ -136,38 +145,33 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         p.pxBc = pixelsOf(pointBetween(p.b, p.c, 1.0, 1.0));
         p.pxCa = pixelsOf(pointBetween(p.c, p.a, 1.0, 1.0));
         ScreenBox box = boxOf(p);
-        if (isAroundTornDirection(p, t.facing)) box.isTorn = true;
-        if (!isWide && !box.isTorn) {
-            ivec2 across = turnsWithin(box.least.x, box.most.x, size.x, size.z);
-            ivec2 down = turnsWithin(box.least.y, box.most.y, size.y, size.w);
-            if (across.y == 0 || down.y == 0) continue;
-        }
+        if (isAround(torn[0], p, t.facing) || isAround(torn[1], p, t.facing)) box.isTorn = true;
+        if (!isWide && !box.isTorn && turnsOf(box).y == 0) continue;
         // Around a pole only the distance from it counts.
         if (!isWide && box.isTorn && size.z > 0.0 && (box.most.y < 0.0 || box.least.y > size.y)) continue;
         if (!isWide && box.isTorn && size.w > 0.0 && (box.most.x < 0.0 || box.least.x > size.x)) continue;
 #endif
-        uint ab = middleOf(part.x, part.y), bc = middleOf(part.y, part.z), ca = middleOf(part.z, part.x);
         // Of the edges that have to be divided, the one that is seen widest.
-        vec3 cosines = vec3(ab != NOT_BETWEEN && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? cosineBetween(p.a, p.b) : 2.0,
-                            bc != NOT_BETWEEN && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? cosineBetween(p.b, p.c) : 2.0,
-                            ca != NOT_BETWEEN && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? cosineBetween(p.c, p.a) : 2.0);
+        vec3 cosines = vec3(
+            areBetween(part[0], part[1]) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? cosineBetween(p.a, p.b) : 2.0,
+            areBetween(part[1], part[2]) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? cosineBetween(p.b, p.c) : 2.0,
+            areBetween(part[2], part[0]) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? cosineBetween(p.c, p.a) : 2.0);
         float least = min(min(cosines.x, cosines.y), cosines.z);
         if (least > 1.5 || openCount + 2 > MOST_OPEN) {
             partCorners = part;
-            bool isWhole = part == uvec3(WHOLE_A, WHOLE_B, WHOLE_C);
-            if (!isWide && !box.isTorn) count = takeTurns(box, isWhole, count, most);
+            // What still turns far is too small to be divided, and would be seen far from where it is.
+            bool isDrawn = !isWide && !box.isTorn && !turnsFar(p.a, p.b) && !turnsFar(p.b, p.c) && !turnsFar(p.c, p.a);
+            if (isDrawn) turns = turnsOf(box);
             continue;
         }
-        if (least == cosines.x) {
-            open[openCount++] = uvec3(ab, part.y, part.z);
-            open[openCount++] = uvec3(part.x, ab, part.z);
-        } else if (least == cosines.y) {
-            open[openCount++] = uvec3(part.x, bc, part.z);
-            open[openCount++] = uvec3(part.x, part.y, bc);
-        } else {
-            open[openCount++] = uvec3(part.x, part.y, ca);
-            open[openCount++] = uvec3(ca, part.y, part.z);
-        }
+        int from = least == cosines.x ? 0 : least == cosines.y ? 1 : 2, to = (from + 1) % 3;
+        vec2 middle = 0.5 * (part[from] + part[to]);
+        mat3x2 first = part, second = part;
+        first[from] = middle;
+        second[to] = middle;
+        open[openCount++] = first;
+        open[openCount++] = second;
     }
+    isUnfinished = (openCount > 0 || turns.y > 0) && count < most;
     return count;
 }
