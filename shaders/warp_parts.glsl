@@ -151,20 +151,21 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         if (!isWide && box.isTorn && size.z > 0.0 && (box.most.y < 0.0 || box.least.y > size.y)) continue;
         if (!isWide && box.isTorn && size.w > 0.0 && (box.most.x < 0.0 || box.least.x > size.x)) continue;
 #endif
-        // Of the edges that have to be divided, the one that is seen widest.
-        vec3 cosines = vec3(
-            areBetween(part[0], part[1]) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? cosineBetween(p.a, p.b) : 2.0,
-            areBetween(part[1], part[2]) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? cosineBetween(p.b, p.c) : 2.0,
-            areBetween(part[2], part[0]) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? cosineBetween(p.c, p.a) : 2.0);
-        float least = min(min(cosines.x, cosines.y), cosines.z);
-        if (least > 1.5 || openCount + 2 > MOST_OPEN) {
+        // Of the edges that have to be divided, the longest: then parts have no edges from near the eye to far away, whose
+        // many halves would use up the weights.
+        vec3 lengths = vec3(
+            areBetween(part[0], part[1]) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? distance(p.a, p.b) : 0.0,
+            areBetween(part[1], part[2]) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? distance(p.b, p.c) : 0.0,
+            areBetween(part[2], part[0]) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? distance(p.c, p.a) : 0.0);
+        float longest = max(max(lengths.x, lengths.y), lengths.z);
+        if (longest == 0.0 || openCount + 2 > MOST_OPEN) {
             partCorners = part;
             // What still turns far is too small to be divided, and would be seen far from where it is.
             bool isDrawn = !isWide && !box.isTorn && !turnsFar(p.a, p.b) && !turnsFar(p.b, p.c) && !turnsFar(p.c, p.a);
             if (isDrawn) turns = turnsOf(box);
             continue;
         }
-        int from = least == cosines.x ? 0 : least == cosines.y ? 1 : 2, to = (from + 1) % 3;
+        int from = longest == lengths.x ? 0 : longest == lengths.y ? 1 : 2, to = (from + 1) % 3;
         vec2 middle = 0.5 * (part[from] + part[to]);
         mat3x2 first = part, second = part;
         first[from] = middle;
