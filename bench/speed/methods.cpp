@@ -18,21 +18,17 @@
 namespace curvewall {
 namespace {
 
-// What is forecast, and what somebody might run instead.
+// What is forecast; and vertex-warp with shorter edges, where those that are forecast miss the tolerance.
+// Longer ones may meet it in one frame, which tells nothing of the next.
 std::vector<MethodForecast> rivalsOf(const RenderRequest& base, const Display& display) {
     std::vector<MethodForecast> rivals = forecastMethods(base, display).forecasts;
-    const auto add = [&](MethodForecast rival, const auto& change) {
-        change(rival.request);
-        rivals.push_back(std::move(rival));
-    };
-    for (size_t i = 0, count = rivals.size(); i < count; ++i) {
-        const MethodForecast rival = rivals[i];
-        if (rival.request.method == Method::vertexWarp && rival.request.tessellationPx > 0)
-            for (const double longer : {0.7, 1.4})
-                add(rival, [&](RenderRequest& request) {
-                    request.tessellationPx = std::clamp(request.tessellationPx * longer, kLeastTessellationPx,
-                                                        kMostTessellationPx);
-                });
+    const auto warp = std::ranges::find_if(rivals, [](const MethodForecast& rival) {
+        return rival.request.method == Method::vertexWarp && rival.request.tessellationPx > 0;
+    });
+    if (warp != rivals.end()) {
+        MethodForecast shorter = *warp;
+        shorter.request.tessellationPx = std::max(0.7 * warp->request.tessellationPx, kLeastTessellationPx);
+        rivals.push_back(std::move(shorter));
     }
     return rivals;
 }
