@@ -116,6 +116,7 @@ std::map<std::string, std::map<std::string, std::string>> documentedCells() {
     std::ifstream page(CURVEWALL_SOURCE_DIR "/docs/methods.md");
     for (std::string line; std::getline(page, line);) {
         if (line.starts_with("| wall, display |")) columns = cellsOf(line);
+        if (!line.starts_with('|')) columns.clear();  // the table has ended
         if (!line.starts_with("| `") || columns.empty()) continue;
         const std::vector<std::string> cells = cellsOf(line);
         for (size_t i = 1; i < std::min(cells.size(), columns.size()); ++i)
