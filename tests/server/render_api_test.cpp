@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"method", "magic"}},
                 "method: expected piecewise, image-based, bounded-raycast, vertex-warp, reference or auto, "
                 "found \"magic\""},
-        Mistake{{{"bounds", "circle"}}, R"(bounds: expected triangle or quad, found "circle")"},
+        Mistake{{{"bounds", "circle"}}, R"(bounds: expected triangle, quad or generic-quad, found "circle")"},
         Mistake{{{"tessellation_px", -1}}, "tessellation_px: expected"},
         Mistake{{{"engine", "steam"}},
                 R"(engine: expected compute, geometry, tessellation or loop, found "steam")"},
