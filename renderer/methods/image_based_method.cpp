@@ -40,12 +40,10 @@ RenderResult ImageBasedMethod::render(const RenderRequest& request, const Displa
     FrameOutcome outcome;
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
-        do {
+        outcome = drawUntilItFits(*renderer, [&] {
             renderer->record(view, *pictures, *resampler, target, request.wall->background);
             blended.record(target);
-            waitForGpu();
-            outcome = renderer->finishFrame();
-        } while (outcome.overflowed);
+        });
     };
     const auto readFirst = [&] {
         result.frame = blended.read(target);

@@ -102,13 +102,11 @@ RenderResult PiecewiseMethod::render(const RenderRequest& request, const Display
     FrameOutcome outcome;
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
-        do {
+        outcome = drawUntilItFits(drawn->renderer, [&] {
             target.draw(request.wall->background,
                         [&](const FramePass& pass) { drawn->renderer.record(view, pass); });
             blended.record(target.picture());
-            waitForGpu();
-            outcome = drawn->renderer.finishFrame();
-        } while (outcome.overflowed);
+        });
     };
     const auto readFirst = [&] {
         result.frame = blended.read(target.picture());

@@ -5,6 +5,7 @@
 #include "renderer/prepared_scene.h"
 #include "renderer/recently_used.h"
 #include "renderer/render.h"
+#include "renderer/replicator.h"
 #include "renderer/sampled_target.h"
 
 #include <memory>
@@ -59,6 +60,18 @@ inline int samplesFor(const RenderRequest& request) {
 
 // Waits until the GPU has done everything recorded so far.
 void waitForGpu();
+
+// Records a frame until its buffers had room for it: they grow when the renderer finishes one that
+// overflowed.
+template <class FrameRenderer, class Record>
+FrameOutcome drawUntilItFits(FrameRenderer& renderer, const Record& record) {
+    while (true) {
+        record();
+        waitForGpu();
+        const FrameOutcome outcome = renderer.finishFrame();
+        if (!outcome.overflowed) return outcome;
+    }
+}
 
 // What the statistics of every raster method tell.
 void describe(const PreparedScene& scene, const ScenePrograms& programs, RenderStats& stats);

@@ -69,13 +69,11 @@ RenderResult VertexWarpMethod::render(const RenderRequest& request, const Displa
     FrameOutcome outcome;
     const auto draw = [&](const Camera& camera) {
         const SceneView view = sceneViewOf(camera, request.wall->eyeM, *request.scene);
-        do {
+        outcome = drawUntilItFits(renderer, [&] {
             target.draw(request.wall->background,
                         [&](const FramePass& pass) { renderer.record(view, pass); });
             blended.record(target.picture());
-            waitForGpu();
-            outcome = renderer.finishFrame();
-        } while (outcome.overflowed);
+        });
     };
     const auto readFirst = [&] {
         result.frame = blended.read(target.picture());

@@ -220,19 +220,7 @@ TEST_F(BoundedRaycast, TrianglesSeenFromBehindAreDrawnOnlyWhenTheirMaterialIsDou
 }
 
 TEST_F(BoundedRaycast, AlphaMasksLetTheBackgroundThrough) {
-    Scene scene;
-    Texture stripes = squareTexture(8, [](int, int size) {
-        std::vector<glm::u8vec4> texels;
-        for (int i = 0; i < size * size; ++i)
-            texels.emplace_back(200, 60, 20, size > 1 && i % size < size / 2 ? 255 : 0);
-        return texels;
-    });
-    stripes.levels.resize(1);
-    Material material = texturedMaterial(scene, stripes);
-    material.alphaCutoff = 0.5f;
-    startMaterial(scene, material);
-    addFrontalSquare(scene, {0, 0, -2}, 4);
-    const RenderRequest request = boundedRequest(test::lensWall(kHalfTurn, kSizePx), scene);
+    const RenderRequest request = boundedRequest(test::lensWall(kHalfTurn, kSizePx), maskedSquare());
     EXPECT_LT(shareOff(request), 0.001);
     EXPECT_EQ(*frameOf(request).at(140, 96), 0);  // the transparent half
 }

@@ -282,19 +282,7 @@ TEST_F(Piecewise, TrianglesSeenFromBehindAreDrawnOnlyWhenTheirMaterialIsDoubleSi
 }
 
 TEST_F(Piecewise, AlphaMasksLetTheBackgroundThrough) {
-    Scene scene;
-    Texture stripes = squareTexture(8, [](int, int size) {
-        std::vector<glm::u8vec4> texels;
-        for (int i = 0; i < size * size; ++i)
-            texels.emplace_back(200, 60, 20, size > 1 && i % size < size / 2 ? 255 : 0);
-        return texels;
-    });
-    stripes.levels.resize(1);
-    Material material = texturedMaterial(scene, stripes);
-    material.alphaCutoff = 0.5f;
-    startMaterial(scene, material);
-    addFrontalSquare(scene, {0, 0, -2}, 4);
-    const RenderRequest request = test::requestFor(test::fullCylinderWall({400, 300}), scene);
+    const RenderRequest request = test::requestFor(test::fullCylinderWall({400, 300}), maskedSquare());
     EXPECT_LT(test::differenceFromReference(request).shareOff, 0.002);
     const Frame frame = Renderer().render(request).frame;
     EXPECT_EQ(*frame.at(225, 150), 0);  // the transparent half

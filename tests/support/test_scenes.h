@@ -104,6 +104,23 @@ inline Material texturedMaterial(Scene& scene, Texture texture) {
     return material;
 }
 
+// A square ahead whose right half an alpha mask takes away.
+inline Scene maskedSquare() {
+    Scene scene;
+    Texture stripes = squareTexture(8, [](int, int size) {
+        std::vector<glm::u8vec4> texels;
+        for (int i = 0; i < size * size; ++i)
+            texels.emplace_back(200, 60, 20, size > 1 && i % size < size / 2 ? 255 : 0);
+        return texels;
+    });
+    stripes.levels.resize(1);
+    Material material = texturedMaterial(scene, stripes);
+    material.alphaCutoff = 0.5f;
+    startMaterial(scene, material);
+    addFrontalSquare(scene, {0, 0, -2}, 4);
+    return scene;
+}
+
 inline uint32_t addVertex(Scene& scene, glm::vec3 position, glm::vec2 uv = {}, glm::vec3 normal = {0, 1, 0}) {
     scene.positions.push_back(position);
     scene.normals.push_back(normal);
