@@ -35,24 +35,27 @@ std::optional<double> PixelDistance::from(glm::dvec2 px, glm::dvec3 ray) const {
     return least;
 }
 
-Certificate shownError(const Frame& position, const Display& display) {
-    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-    std::vector<float> errors(position.texels.size() / 3, kNaN);
-    std::vector<int32_t> owners(errors.size(), kNoPiece);
+std::vector<float> shownErrorsPx(const Frame& position, const Display& display) {
+    std::vector<float> errors(position.texels.size() / 3, std::numeric_limits<float>::quiet_NaN());
     const PixelDistance distance(display);
     parallelRanges(position.sizePx.y, [&](int begin, int end) {
         for (int y = begin; y < end; ++y)
             for (int x = 0; x < position.sizePx.x; ++x) {
                 const float* const texel = position.at(x, y);
                 if (std::isnan(texel[0])) continue;
-                const auto index =
-                    static_cast<size_t>(y) * static_cast<size_t>(position.sizePx.x) + static_cast<size_t>(x);
                 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-                owners[index] = 0;
-                errors[index] = static_cast<float>(
-                    distance.from(centreOf({x, y}), {texel[0], texel[1], texel[2]}).value_or(kNowhere));
+                errors[static_cast<size_t>(y) * static_cast<size_t>(position.sizePx.x) +
+                       static_cast<size_t>(x)] =
+                    static_cast<float>(
+                        distance.from(centreOf({x, y}), {texel[0], texel[1], texel[2]}).value_or(kNowhere));
             }
     });
+    return errors;
+}
+
+Certificate shownError(const Frame& position, const Display& display) {
+    const std::vector<float> errors = shownErrorsPx(position, display);
+    const std::vector<int32_t> owners(errors.size(), 0);
     return certificateOf(errors, owners, position.sizePx);
 }
 

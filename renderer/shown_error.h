@@ -7,6 +7,7 @@
 #include "renderer/frame.h"
 
 #include <optional>
+#include <vector>
 
 namespace curvewall {
 
@@ -24,8 +25,11 @@ private:
     bool isClosed_;
 };
 
-// Over the pixels that show something, of an output of OutputKind::position with one sample. Points that the
-// display does not see anywhere count as infinitely far off.
+// Of an output of OutputKind::position with one sample, row by row from the top: NaN where nothing is shown,
+// infinity where the point is one that the display does not see anywhere.
+std::vector<float> shownErrorsPx(const Frame& position, const Display& display);
+
+// Over the pixels that show something.
 Certificate shownError(const Frame& position, const Display& display);
 
 }  // namespace curvewall

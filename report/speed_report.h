@@ -1,0 +1,78 @@
+#pragma once
+// What `curvewall report` measured: methods with their knobs turned, on displays and in scenes.
+
+#include "report/errors.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace curvewall {
+
+// Of one number over the rounds of a measurement.
+struct Spread {
+    double median = 0, min = 0, max = 0;
+};
+
+// One method with its knobs set.
+struct SettingName {
+    std::string method;   // "image-based"
+    std::string variant;  // "cube, linear"; empty where there is but one
+    std::string knob;     // "face_size_px"; empty where nothing turns
+    double value = 0;     // of the knob
+    int samples = 1;
+
+    std::string curve() const { return variant.empty() ? method : method + ", " + variant; }
+};
+
+struct SettingResult {
+    SettingName setting;
+    std::string refusal;  // why it cannot be drawn; empty where it can, and only then the rest is there
+    MethodErrors errors{};
+    Spread frameMs{};        // of the medians of the rounds
+    nlohmann::json stats{};  // as docs/command-line.md has them: pieces, pairs, stages, overdraw, memory
+    // PNG files relative to the report's folder: colours of what matters most, and error by pixel.
+    std::string crop, errorMap;
+};
+
+// A curve's error against its knob: error ~ knob^order, by least squares over what lies above the floor.
+struct ErrorOrder {
+    std::string curve, error;
+    double order = 0, expected = 0;
+    int points = 0;
+};
+
+struct TruthFacts {
+    int supersamples = 0;
+    double noiseDb = 0;  // PSNR of the supersampled truth against what it would be with endless rays
+    std::string picture, crop;
+};
+
+// What stays wrong where the projection is exact: of plain perspective pictures as dense as the display, with
+// the same samples and filter.
+struct SamplingFloor {
+    int samples = 1;
+    double shareOff = 0;
+    double psnrDb = 0;
+    double supersampledPsnrDb = 0;
+};
+
+// One display with one scene.
+struct ViewReport {
+    std::string wall, display, scene;
+    glm::ivec2 sizePx{0};
+    std::string projection;
+    TruthFacts truth;
+    std::vector<SamplingFloor> floors;
+    std::vector<SettingResult> settings;
+};
+
+struct SpeedReport {
+    std::string glRenderer, processor;
+    double tolerancePx = 0;
+    std::vector<ViewReport> views;
+};
+
+}  // namespace curvewall
