@@ -1,7 +1,6 @@
-#include "bench/compare/flat_city.h"
+#include "report/flat_scene.h"
 
 #include "renderer/image_file.h"
-#include "renderer/scene/city.h"
 
 namespace curvewall {
 namespace {
@@ -13,17 +12,16 @@ glm::vec3 averageOf(const Texture& texture) {
 
 }  // namespace
 
-ScenePtr makeFlatCity() {
-    Scene city = makeCity();
-    for (Material& material : city.materials) {
+ScenePtr flatScene(Scene scene) {
+    for (Material& material : scene.materials) {
         if (material.texture < 0) continue;
-        const glm::vec3 average = averageOf(city.textures[static_cast<size_t>(material.texture)]);
+        const glm::vec3 average = averageOf(scene.textures[static_cast<size_t>(material.texture)]);
         material.baseColor *= glm::vec4(average, 1);
         material.texture = -1;
         material.alphaCutoff = -1;
     }
-    city.textures.clear();
-    return std::make_shared<const Scene>(std::move(city));
+    scene.textures.clear();
+    return std::make_shared<const Scene>(std::move(scene));
 }
 
 }  // namespace curvewall
