@@ -3,14 +3,12 @@
 #include "report/axis.h"
 #include "report/curve_style.h"
 #include "report/gnuplot.h"
+#include "report/text_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -193,14 +191,6 @@ void labelPoints(pugi::xml_node group, const Plot& plot, const Curve& curve) {
             setTitle(marks[next++], labelOf(curve, i));
 }
 
-void writeFile(const std::string& path, const std::string& content) {
-    errno = 0;
-    std::ofstream file(path, std::ios::binary);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
-}
-
 }  // namespace
 
 std::vector<glm::dvec2> paretoFront(std::vector<glm::dvec2> points, bool moreIsBetterY) {
@@ -242,9 +232,9 @@ std::string svgOf(const Plot& plot, const std::string& idPrefix) {
 
 void drawPlot(const Plot& plot, const std::string& path, int widthPx) {
     if (path.ends_with(".svg"))
-        writeFile(path, svgOf(plot, "plot"));
+        writeTextFile(path, svgOf(plot, "plot"));
     else if (path.ends_with(".png"))
-        writeFile(path, pngOf(plot, widthPx));
+        writeTextFile(path, pngOf(plot, widthPx));
     else
         throw std::runtime_error(path + ": expected a file name that ends in .png or .svg");
 }

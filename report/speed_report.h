@@ -25,6 +25,8 @@ struct SettingName {
     int samples = 1;
 
     std::string curve() const { return variant.empty() ? method : method + ", " + variant; }
+    // With the knob: "image-based, cube, linear, 1024 px".
+    std::string text() const;
 };
 
 struct SettingResult {
@@ -33,8 +35,9 @@ struct SettingResult {
     MethodErrors errors{};
     Spread frameMs{};        // of the medians of the rounds
     nlohmann::json stats{};  // as docs/command-line.md has them: pieces, pairs, stages, overdraw, memory
-    // PNG files relative to the report's folder: colours of what matters most, and error by pixel.
-    std::string crop, errorMap;
+    // PNG files relative to the report's folder, of settings that stand for their method: the whole picture,
+    // what matters most of it, and the geometric error by pixel.
+    std::string picture, crop, errorMap;
 };
 
 // A curve's error against its knob: error ~ knob^order, by least squares over what lies above the floor.
