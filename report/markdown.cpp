@@ -35,7 +35,7 @@ std::string lineText(std::string_view text) {
     const size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
     if (line.starts_with('#') || line.starts_with('-') || line.starts_with('+'))
         line.insert(0, "\\");
-    else if (digits > 0 && digits < line.size() && (line[digits] == '.' || line[digits] == ')'))
+    else if (digits > 0 && (line.substr(digits, 2) == ". " || line.substr(digits, 2) == ") "))
         line.insert(digits, "\\");
     return line;
 }
