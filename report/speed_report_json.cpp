@@ -1,268 +1,153 @@
 #include "report/speed_report_json.h"
 
-#include "calibration/files/json_file.h"
-#include "report/text_file.h"
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
+#include "report/kept_json.h"
 
 namespace curvewall {
-namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 1;
-constexpr Range kAnyNumber{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
-constexpr int64_t kMostPixels = int64_t{1} << 53;  // as far as whole numbers of JSON are exact everywhere
-constexpr int kMostInt = std::numeric_limits<int>::max();
-
-json orNull(double value) { return std::isinf(value) ? json() : json(value); }
-
-double numberOf(JsonFields& fields, const char* key) {
-    return fields.required(key, fields.number(key, kAnyNumber));
+void to_json(json& out, const Spread& spread) {
+    out = {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
 }
 
-double decibelsOf(JsonFields& fields, const char* key) {
-    return fields.required(key, fields.numberOrInfinity(key, kAnyNumber));
+void from_json(const json& in, Spread& spread) { spread = {in.at("median"), in.at("min"), in.at("max")}; }
+
+void to_json(json& out, const SettingName& setting) {
+    out = {{"method", setting.method},
+           {"variant", setting.variant},
+           {"knob", setting.knob},
+           {"value", setting.value},
+           {"samples", setting.samples}};
 }
 
-int intOf(JsonFields& fields, const char* key) {
-    return static_cast<int>(fields.required(key, fields.wholeNumber(key, 0, kMostInt)));
+void from_json(const json& in, SettingName& setting) {
+    setting = {in.at("method"), in.at("variant"), in.at("knob"), in.at("value"), in.at("samples")};
 }
 
-uint64_t countOf(JsonFields& fields, const char* key) {
-    return static_cast<uint64_t>(fields.required(key, fields.wholeNumber(key, 0, kMostPixels)));
+void to_json(json& out, const MethodErrors& errors) {
+    const Certificate& geometric = errors.geometric;
+    const CoverageError& coverage = errors.coverage;
+    out = {{"geometric_px",
+            {{"max", geometric.maxPx},
+             {"p99", geometric.p99Px},
+             {"mean", geometric.meanPx},
+             {"max_at", {geometric.maxAt.x, geometric.maxAt.y}},
+             {"empty_pixels", geometric.holes},
+             {"misplaced_pixels", errors.misplacedPixels}}},
+           {"image",
+            {{"share_off", errors.image.shareOff},
+             {"psnr_db", errors.image.psnrDb},
+             {"ssim", errors.image.ssim},
+             {"max_difference", errors.image.maxDifference},
+             {"nan_texels", errors.nanTexels}}},
+           {"coverage",
+            {{"uncovered_pixels", coverage.uncoveredPixels},
+             {"overdrawn_pixels", coverage.overdrawnPixels},
+             {"twice_covered_pixels", coverage.twiceCoveredPixels}}},
+           {"supersampled_psnr_db", errors.supersampledPsnrDb}};
 }
 
-std::string textOf(JsonFields& fields, const char* key) { return fields.required(key, fields.text(key)); }
-
-JsonFields objectOf(JsonFields& fields, const char* key) { return fields.required(key, fields.object(key)); }
-
-glm::ivec2 pairOf(JsonFields& fields, const char* key) {
-    const auto pair = fields.required(key, fields.wholeNumbers(key, 2, 0, kMostInt));
-    return {static_cast<int>(pair[0]), static_cast<int>(pair[1])};
+void from_json(const json& in, MethodErrors& errors) {
+    const json& geometric = in.at("geometric_px");
+    errors.geometric.maxPx = geometric.at("max");
+    errors.geometric.p99Px = geometric.at("p99");
+    errors.geometric.meanPx = geometric.at("mean");
+    errors.geometric.maxAt = {geometric.at("max_at").at(0), geometric.at("max_at").at(1)};
+    errors.geometric.holes = geometric.at("empty_pixels");
+    errors.misplacedPixels = geometric.at("misplaced_pixels");
+    const json& image = in.at("image");
+    errors.image = {image.at("share_off"), numberOrInfinity(image.at("psnr_db")), image.at("ssim"),
+                    image.at("max_difference")};
+    errors.nanTexels = image.at("nan_texels");
+    const json& coverage = in.at("coverage");
+    errors.coverage = {coverage.at("uncovered_pixels"), coverage.at("overdrawn_pixels"),
+                       coverage.at("twice_covered_pixels")};
+    errors.supersampledPsnrDb = numberOrInfinity(in.at("supersampled_psnr_db"));
 }
 
-// Lists without an entry are not written.
-template <class Value>
-std::vector<Value> listOf(JsonFields& fields, const char* key, Value (*read)(JsonFields)) {
-    std::vector<Value> values;
-    if (fields.has(key))
-        for (JsonFields& entry : fields.objects(key)) values.push_back(read(std::move(entry)));
-    return values;
-}
-
-template <class Value>
-void putList(json& object, const char* key, const std::vector<Value>& values) {
-    for (const Value& value : values) object[key].push_back(toJson(value));
-}
-
-json toJson(const Certificate& error) {
-    return {{"max", error.maxPx},         {"p99", error.p99Px},
-            {"mean", error.meanPx},       {"max_at", {error.maxAt.x, error.maxAt.y}},
-            {"every", error.every},       {"uncovered_pixels", error.uncoveredPixels},
-            {"empty_pixels", error.holes}};
-}
-
-Certificate certificateFrom(JsonFields fields) {
-    Certificate error;
-    error.maxPx = numberOf(fields, "max");
-    error.p99Px = numberOf(fields, "p99");
-    error.meanPx = numberOf(fields, "mean");
-    error.maxAt = pairOf(fields, "max_at");
-    error.every = intOf(fields, "every");
-    error.uncoveredPixels = intOf(fields, "uncovered_pixels");
-    error.holes = intOf(fields, "empty_pixels");
-    fields.refuseUnknownKeys();
-    return error;
-}
-
-ImageDifference imageDifferenceFrom(JsonFields fields) {
-    ImageDifference image;
-    image.shareOff = numberOf(fields, "share_off");
-    image.psnrDb = decibelsOf(fields, "psnr_db");
-    image.ssim = numberOf(fields, "ssim");
-    image.maxDifference = intOf(fields, "max_difference");
-    fields.refuseUnknownKeys();
-    return image;
-}
-
-CoverageError coverageFrom(JsonFields fields) {
-    CoverageError coverage;
-    coverage.uncoveredPixels = countOf(fields, "uncovered_pixels");
-    coverage.overdrawnPixels = countOf(fields, "overdrawn_pixels");
-    coverage.twiceCoveredPixels = countOf(fields, "twice_covered_pixels");
-    fields.refuseUnknownKeys();
-    return coverage;
-}
-
-Spread spreadFrom(JsonFields fields) {
-    Spread spread;
-    spread.median = numberOf(fields, "median");
-    spread.min = numberOf(fields, "min");
-    spread.max = numberOf(fields, "max");
-    fields.refuseUnknownKeys();
-    return spread;
-}
-
-}  // namespace
-
-json toJson(const MethodErrors& errors) {
-    return {{"geometric_px", toJson(errors.geometric)},
-            {"misplaced_pixels", errors.misplacedPixels},
-            {"image",
-             {{"share_off", errors.image.shareOff},
-              {"psnr_db", orNull(errors.image.psnrDb)},
-              {"ssim", errors.image.ssim},
-              {"max_difference", errors.image.maxDifference}}},
-            {"coverage",
-             {{"uncovered_pixels", errors.coverage.uncoveredPixels},
-              {"overdrawn_pixels", errors.coverage.overdrawnPixels},
-              {"twice_covered_pixels", errors.coverage.twiceCoveredPixels}}},
-            {"supersampled_psnr_db", orNull(errors.supersampledPsnrDb)},
-            {"nan_texels", errors.nanTexels}};
-}
-
-json toJson(const Spread& spread) {
-    return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
-}
-
-json toJson(const TruthFacts& truth) {
-    return {{"supersamples", truth.supersamples},
-            {"noise_db", orNull(truth.noiseDb)},
-            {"picture", truth.picture},
-            {"crop", truth.crop}};
-}
-
-json toJson(const SamplingFloor& floor) {
-    return {{"samples", floor.samples},
-            {"share_off", floor.shareOff},
-            {"psnr_db", orNull(floor.psnrDb)},
-            {"supersampled_psnr_db", orNull(floor.supersampledPsnrDb)}};
-}
-
-json toJson(const SettingResult& result) {
-    json object = {{"method", result.setting.method},
-                   {"variant", result.setting.variant},
-                   {"knob", result.setting.knob},
-                   {"value", result.setting.value},
-                   {"samples", result.setting.samples}};
+void to_json(json& out, const SettingResult& result) {
+    out = {{"setting", result.setting}};
     if (!result.refusal.empty()) {
-        object["refusal"] = result.refusal;
-        return object;
+        out["refused"] = result.refusal;
+        return;
     }
-    object["errors"] = toJson(result.errors);
-    object["frame_ms"] = toJson(result.frameMs);
-    if (result.stats.is_object()) object["stats"] = result.stats;
-    object["crop"] = result.crop;
-    object["error_map"] = result.errorMap;
-    return object;
+    out["errors"] = result.errors;
+    out["frame_ms"] = result.frameMs;
+    out["stats"] = result.stats;
+    if (!result.picture.empty()) out["pictures"]["picture"] = result.picture;
+    if (!result.crop.empty()) out["pictures"]["crop"] = result.crop;
+    if (!result.errorMap.empty()) out["pictures"]["error_map"] = result.errorMap;
 }
 
-json toJson(const ViewReport& view) {
-    json object = {{"wall", view.wall},
-                   {"display", view.display},
-                   {"scene", view.scene},
-                   {"size", {view.sizePx.x, view.sizePx.y}},
-                   {"projection", view.projection},
-                   {"truth", toJson(view.truth)}};
-    putList(object, "floors", view.floors);
-    putList(object, "settings", view.settings);
-    return object;
+void from_json(const json& in, SettingResult& result) {
+    result = {};
+    result.setting = in.at("setting");
+    result.refusal = in.value("refused", "");
+    if (!result.refusal.empty()) return;
+    result.errors = in.at("errors");
+    result.frameMs = in.at("frame_ms");
+    result.stats = in.at("stats");
+    const json pictures = in.value("pictures", json::object());
+    result.picture = pictures.value("picture", "");
+    result.crop = pictures.value("crop", "");
+    result.errorMap = pictures.value("error_map", "");
 }
 
-json toJson(const SpeedReport& report) {
-    json object = {{"version", kVersion},
-                   {"gl_renderer", report.glRenderer},
-                   {"processor", report.processor},
-                   {"tolerance_px", report.tolerancePx}};
-    putList(object, "views", report.views);
-    return object;
+void to_json(json& out, const TruthFacts& truth) {
+    out = {{"rays_a_pixel", truth.supersamples},
+           {"noise_db", truth.noiseDb},
+           {"picture", truth.picture},
+           {"crop", truth.crop}};
 }
 
-MethodErrors methodErrorsFrom(JsonFields fields) {
-    MethodErrors errors;
-    errors.geometric = certificateFrom(objectOf(fields, "geometric_px"));
-    errors.misplacedPixels = countOf(fields, "misplaced_pixels");
-    errors.image = imageDifferenceFrom(objectOf(fields, "image"));
-    errors.coverage = coverageFrom(objectOf(fields, "coverage"));
-    errors.supersampledPsnrDb = decibelsOf(fields, "supersampled_psnr_db");
-    errors.nanTexels = countOf(fields, "nan_texels");
-    fields.refuseUnknownKeys();
-    return errors;
+void from_json(const json& in, TruthFacts& truth) {
+    truth = {in.at("rays_a_pixel"), numberOrInfinity(in.at("noise_db")), in.at("picture"), in.at("crop")};
 }
 
-TruthFacts truthFactsFrom(JsonFields fields) {
-    TruthFacts truth;
-    truth.supersamples = intOf(fields, "supersamples");
-    truth.noiseDb = decibelsOf(fields, "noise_db");
-    truth.picture = textOf(fields, "picture");
-    truth.crop = textOf(fields, "crop");
-    fields.refuseUnknownKeys();
-    return truth;
+void to_json(json& out, const SamplingFloor& floor) {
+    out = {{"samples", floor.samples},
+           {"share_off", floor.shareOff},
+           {"psnr_db", floor.psnrDb},
+           {"supersampled_psnr_db", floor.supersampledPsnrDb}};
 }
 
-SamplingFloor samplingFloorFrom(JsonFields fields) {
-    SamplingFloor floor;
-    floor.samples = intOf(fields, "samples");
-    floor.shareOff = numberOf(fields, "share_off");
-    floor.psnrDb = decibelsOf(fields, "psnr_db");
-    floor.supersampledPsnrDb = decibelsOf(fields, "supersampled_psnr_db");
-    fields.refuseUnknownKeys();
-    return floor;
+void from_json(const json& in, SamplingFloor& floor) {
+    floor = {in.at("samples"), in.at("share_off"), numberOrInfinity(in.at("psnr_db")),
+             numberOrInfinity(in.at("supersampled_psnr_db"))};
 }
 
-SettingResult settingResultFrom(JsonFields fields) {
-    SettingResult result;
-    result.setting.method = textOf(fields, "method");
-    result.setting.variant = textOf(fields, "variant");
-    result.setting.knob = textOf(fields, "knob");
-    result.setting.value = numberOf(fields, "value");
-    result.setting.samples = intOf(fields, "samples");
-    result.refusal = fields.text("refusal").value_or("");
-    if (result.refusal.empty()) {
-        result.errors = methodErrorsFrom(objectOf(fields, "errors"));
-        result.frameMs = spreadFrom(objectOf(fields, "frame_ms"));
-        if (auto stats = fields.anyObject("stats")) result.stats = std::move(*stats);
-        result.crop = textOf(fields, "crop");
-        result.errorMap = textOf(fields, "error_map");
-    }
-    fields.refuseUnknownKeys();
-    return result;
+void to_json(json& out, const ViewReport& view) {
+    out = {{"wall", view.wall},
+           {"display", view.display},
+           {"scene", view.scene},
+           {"size", {view.sizePx.x, view.sizePx.y}},
+           {"projection", view.projection},
+           {"truth", view.truth},
+           {"sampling_floors", view.floors},
+           {"settings", view.settings}};
 }
 
-ViewReport viewReportFrom(JsonFields fields) {
-    ViewReport view;
-    view.wall = textOf(fields, "wall");
-    view.display = textOf(fields, "display");
-    view.scene = textOf(fields, "scene");
-    view.sizePx = pairOf(fields, "size");
-    view.projection = textOf(fields, "projection");
-    view.truth = truthFactsFrom(objectOf(fields, "truth"));
-    view.floors = listOf(fields, "floors", samplingFloorFrom);
-    view.settings = listOf(fields, "settings", settingResultFrom);
-    fields.refuseUnknownKeys();
-    return view;
+void from_json(const json& in, ViewReport& view) {
+    view.wall = in.at("wall");
+    view.display = in.at("display");
+    view.scene = in.at("scene");
+    view.sizePx = {in.at("size").at(0), in.at("size").at(1)};
+    view.projection = in.at("projection");
+    view.truth = in.at("truth");
+    view.floors = in.at("sampling_floors").get<std::vector<SamplingFloor>>();
+    view.settings = in.at("settings").get<std::vector<SettingResult>>();
 }
 
-SpeedReport speedReportFrom(JsonFields fields) {
-    SpeedReport report;
-    fields.required("version", fields.wholeNumber("version", kVersion, kVersion));
-    report.glRenderer = textOf(fields, "gl_renderer");
-    report.processor = textOf(fields, "processor");
-    report.tolerancePx = numberOf(fields, "tolerance_px");
-    report.views = listOf(fields, "views", viewReportFrom);
-    fields.refuseUnknownKeys();
-    return report;
+void to_json(json& out, const SpeedReport& report) {
+    out = {{"gl_renderer", report.glRenderer},
+           {"processor", report.processor},
+           {"tolerance_px", report.tolerancePx},
+           {"views", report.views}};
 }
 
-SpeedReport readSpeedReport(const std::string& path) {
-    return readJsonFile(path, "a report that this program wrote", speedReportFrom);
-}
-
-void writeSpeedReport(const SpeedReport& report, const std::string& path) {
-    writeTextFile(path, toJson(report).dump(2) + "\n");
+void from_json(const json& in, SpeedReport& report) {
+    report = {in.at("gl_renderer"), in.at("processor"), in.at("tolerance_px"), {}};
+    report.views = in.at("views").get<std::vector<ViewReport>>();
 }
 
 }  // namespace curvewall

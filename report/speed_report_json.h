@@ -1,35 +1,26 @@
 #pragma once
-// report.json, as docs/report.md describes it. What is written and read again is the same to the last digit.
+// report.json (docs/report.md): nlohmann::json(report), and json.get<SpeedReport>() with every digit.
+// JSON has no infinity, which a PSNR may be: null stands for it.
 
-#include "calibration/files/json_fields.h"
 #include "report/speed_report.h"
-
-#include <nlohmann/json_fwd.hpp>
-
-#include <string>
 
 namespace curvewall {
 
-nlohmann::json toJson(const MethodErrors& errors);
-nlohmann::json toJson(const Spread& spread);
-nlohmann::json toJson(const TruthFacts& truth);
-nlohmann::json toJson(const SamplingFloor& floor);
-nlohmann::json toJson(const SettingResult& result);
-nlohmann::json toJson(const ViewReport& view);
-nlohmann::json toJson(const SpeedReport& report);
-
-// Throw FieldError.
-MethodErrors methodErrorsFrom(JsonFields fields);
-TruthFacts truthFactsFrom(JsonFields fields);
-SamplingFloor samplingFloorFrom(JsonFields fields);
-SettingResult settingResultFrom(JsonFields fields);
-ViewReport viewReportFrom(JsonFields fields);
-SpeedReport speedReportFrom(JsonFields fields);
-
-// Throws InputError.
-SpeedReport readSpeedReport(const std::string& path);
-
-// Throws std::runtime_error where the file cannot be written.
-void writeSpeedReport(const SpeedReport& report, const std::string& path);
+void to_json(nlohmann::json& json, const Spread& spread);
+void from_json(const nlohmann::json& json, Spread& spread);
+void to_json(nlohmann::json& json, const SettingName& setting);
+void from_json(const nlohmann::json& json, SettingName& setting);
+void to_json(nlohmann::json& json, const MethodErrors& errors);
+void from_json(const nlohmann::json& json, MethodErrors& errors);
+void to_json(nlohmann::json& json, const SettingResult& result);
+void from_json(const nlohmann::json& json, SettingResult& result);
+void to_json(nlohmann::json& json, const TruthFacts& truth);
+void from_json(const nlohmann::json& json, TruthFacts& truth);
+void to_json(nlohmann::json& json, const SamplingFloor& floor);
+void from_json(const nlohmann::json& json, SamplingFloor& floor);
+void to_json(nlohmann::json& json, const ViewReport& view);
+void from_json(const nlohmann::json& json, ViewReport& view);
+void to_json(nlohmann::json& json, const SpeedReport& report);
+void from_json(const nlohmann::json& json, SpeedReport& report);
 
 }  // namespace curvewall

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -174,13 +173,6 @@ std::optional<double> JsonFields::number(const char* key, Range range) {
     const json* value = find(key);
     if (!value) return std::nullopt;
     return checkedNumber(*value, nameOf(key), range);
-}
-
-std::optional<double> JsonFields::numberOrInfinity(const char* key, Range range) {
-    const json* value = find(key);
-    if (!value) return std::nullopt;
-    return value->is_null() ? std::numeric_limits<double>::infinity()
-                            : checkedNumber(*value, nameOf(key), range);
 }
 
 std::optional<int64_t> JsonFields::wholeNumber(const char* key, int64_t min, int64_t max) {

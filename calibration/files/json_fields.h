@@ -61,8 +61,6 @@ public:
     // Nothing when the key is absent; FieldError when the value does not fit.
     std::optional<std::string> text(const char* key);
     std::optional<double> number(const char* key, Range range);
-    // JSON has no infinity: null stands for it.
-    std::optional<double> numberOrInfinity(const char* key, Range range);
     std::optional<int64_t> wholeNumber(const char* key, int64_t min, int64_t max);
     std::optional<std::vector<double>> numbers(const char* key, size_t count, Range range);
     std::optional<std::vector<double>> numbers(const char* key, std::initializer_list<size_t> counts,
