@@ -24,4 +24,12 @@ ScenePtr flatScene(Scene scene) {
     return std::make_shared<const Scene>(std::move(scene));
 }
 
+RenderRequest inFlatColors(RenderRequest request, const ScenePtr& flat) {
+    request.scene = flat;
+    request.style = Style::unlit;
+    request.frames = 1;
+    request.timesStages = false;
+    return request;
+}
+
 }  // namespace curvewall

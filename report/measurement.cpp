@@ -3,7 +3,9 @@
 #include "calibration/errors.h"
 #include "calibration/pieces/piece_fit.h"
 #include "calibration/stopwatch.h"
+#include "renderer/scene/room.h"
 #include "report/content_key.h"
+#include "report/flat_scene.h"
 #include "report/kept_json.h"
 #include "report/machine.h"
 #include "report/sampling_floor.h"
@@ -80,6 +82,8 @@ public:
         : view_(view),
           plan_(plan),
           display_(findDisplay(*view.request.wall, view.request.display)),
+          flat_(flatScene(*view.request.scene)),
+          room_(std::make_shared<const Scene>(makeRoom())),
           settings_(settingsFor(view.request, plan.extent)) {
         report_.wall = view.wallName;
         report_.display = display_.name;
@@ -128,16 +132,17 @@ private:
     bool traceTruth() {
         key_ = keyOfView(view_.request);
         truth_ = keptTruth(view_.request, key_, supersampling(), plan_.references);
-        report_.truth.supersamples = truth_->supersamples;
-        report_.truth.noiseDb = truth_->noiseDb;
-        flatTruth_ = renderer_.render(flatRequest(Method::reference)).frame;
+        report_.truth = truth_->facts;
+        RenderRequest edges = inFlatColors(view_.request, flat_);
+        edges.method = Method::reference;
+        flatTruth_ = renderer_.render(edges).frame;
         return true;
     }
 
     bool findFloors() {
         const std::string path = pathOf(plan_.extent == Extent::full ? "full-floors" : "quick-floors");
-        if (const auto kept = keptJson(path)) {
-            report_.floors = KEPTFLOORS;
+        if (const auto kept = keptValue<std::vector<SamplingFloor>>(path)) {
+            report_.floors = *kept;
             return false;
         }
         const std::vector<RenderRequest> windows = flatWindows(view_.request);
@@ -145,7 +150,7 @@ private:
         for (const RenderRequest& window : windows)
             truths.push_back(keptTruth(window, keyOfView(window), supersampling(), plan_.references));
         for (const int samples : plan_.extent == Extent::full ? std::vector{1, 4, 16} : std::vector{1})
-            report_.floors.push_back(samplingFloor(renderer_, windows, truths, samples));
+            report_.floors.push_back(samplingFloor(renderer_, windows, truths, flat_, samples));
         keepJson(path, report_.floors);
         return true;
     }
@@ -163,8 +168,8 @@ private:
     bool findErrors(size_t i) {
         SettingResult& result = report_.settings[i];
         const std::string path = pathOf(keyOfErrors(i));
-        if (const auto kept = keptJson(path)) {
-            result = kept->get<SettingResult>();
+        if (const auto kept = keptValue<SettingResult>(path)) {
+            result = *kept;
             return false;
         }
         result.setting = settings_[i].name;
@@ -175,7 +180,8 @@ private:
             const DrawnOutputs drawn = drawOutputs(renderer_, request);
             result.errors = errorsOf(drawn, truth_->pictures, display_);
             result.room = coverageOfRoom(request);
-            if (request.samples == 1) result.edges = errorOfEdges(request);
+            if (request.samples == 1)
+                result.edges = compareColor(renderer_.render(inFlatColors(request, flat_)).frame, flatTruth_);
             result.stats = toJson(drawn.stats);
             result.stats.erase("frame_ms");  // that of the rounds counts
             if (settings_[i].isShown)
@@ -189,8 +195,10 @@ private:
     }
 
     RoomCoverage coverageOfRoom(RenderRequest request) {
+        // Beside its middle: nothing is symmetric.
+        constexpr glm::dvec3 kEyeM{0.13, 0.21, -0.17};
         request.scene = room_;
-        request.camera = {kBesideTheMiddle - request.wall->eyeM, {}};
+        request.camera = {kEyeM - request.wall->eyeM, {}};
         request.output = OutputKind::coverage;
         request.samples = request.frames = 1;
         request.timesStages = false;
@@ -205,34 +213,28 @@ private:
         return coverage;
     }
 
-    ImageDifference errorOfEdges(RenderRequest request) {
-        request.scene = flat_;
-        request.style = Style::unlit;
-        request.frames = 1;
-        request.timesStages = false;
-        return compareColor(renderer_.render(request).frame, flatTruth_);
-    }
-
     bool takeRound(size_t i, int round) {
         if (!report_.settings[i].refusal.empty()) return false;
         const std::string path =
             pathOf(fmt::format("{}-{}-frames-round-{}", keyOf(settings_[i].name), plan_.frames, round));
-        if (const auto kept = keptJson(path)) {
-            rounds_[i].push_back(kept->at("frame_ms"));
+        if (const auto kept = keptValue<double>(path)) {
+            rounds_[i].push_back(*kept);
             return false;
         }
         RenderRequest request = requestOf(settings_[i]);
         request.frames = plan_.frames;
         rounds_[i].push_back(renderer_.render(request).stats.frameMsMedian);
-        keepJson(path, {{"frame_ms", rounds_[i].back()}});
+        keepJson(path, rounds_[i].back());
         return true;
     }
 
     const View& view_;
     const MeasurementPlan& plan_;
     const Display& display_;
+    const ScenePtr flat_, room_;
     std::vector<Setting> settings_;
     std::string key_;
+    Frame flatTruth_;
     Renderer renderer_;
     std::map<double, std::shared_ptr<const FittedPieces>> pieces_;
     std::optional<KnownTruth> truth_;
