@@ -2,6 +2,7 @@
 
 #include "calibration/pieces/pixel_rays.h"
 #include "calibration/projections/planar.h"
+#include "report/flat_scene.h"
 
 #include <glm/glm.hpp>
 
@@ -52,6 +53,12 @@ WallPtr windowAlong(const Wall& wall, glm::dvec3 ray, double pixelRad) {
 double meanSquare(double psnrDb) { return std::pow(10, -psnrDb / 10); }
 double decibel(double meanSquare) { return -10 * std::log10(meanSquare); }
 
+double edgesShareOff(Renderer& renderer, RenderRequest request) {
+    const Frame drawn = renderer.render(request).frame;
+    request.method = Method::reference;
+    return compareColor(drawn, renderer.render(request).frame).shareOff;
+}
+
 }  // namespace
 
 std::vector<RenderRequest> flatWindows(const RenderRequest& view) {
@@ -72,9 +79,9 @@ std::vector<RenderRequest> flatWindows(const RenderRequest& view) {
 }
 
 SamplingFloor samplingFloor(Renderer& renderer, const std::vector<RenderRequest>& windows,
-                            const std::vector<KnownTruth>& truths, int samples) {
-    SamplingFloor floor{samples, 0, 0, 0};
-    double pixels = 0, off = 0, squares = 0, supersampledSquares = 0;
+                            const std::vector<KnownTruth>& truths, const ScenePtr& flat, int samples) {
+    SamplingFloor floor{samples, 0, 0, 0, 0};
+    double pixels = 0, off = 0, edgesOff = 0, squares = 0, supersampledSquares = 0;
     for (size_t i = 0; i < windows.size(); ++i) {
         RenderRequest request = windows[i];
         request.samples = samples;
@@ -84,11 +91,13 @@ SamplingFloor samplingFloor(Renderer& renderer, const std::vector<RenderRequest>
         const ImageDifference image = compareColor(drawn, samples > 1 ? truth.supersampled : truth.color);
         pixels += count;
         off += count * image.shareOff;
+        if (samples == 1) edgesOff += count * edgesShareOff(renderer, inFlatColors(windows[i], flat));
         squares += count * meanSquare(image.psnrDb);
         supersampledSquares += count * meanSquare(compareColor(drawn, truth.supersampled).psnrDb);
     }
     if (pixels == 0) return floor;
     floor.shareOff = off / pixels;
+    floor.edgesOff = edgesOff / pixels;
     floor.psnrDb = decibel(squares / pixels);
     floor.supersampledPsnrDb = decibel(supersampledSquares / pixels);
     return floor;

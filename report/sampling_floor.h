@@ -12,8 +12,8 @@ namespace curvewall {
 // Those of pixels without a ray are left out.
 std::vector<RenderRequest> flatWindows(const RenderRequest& view);
 
-// Over all windows, for pictures of so many samples a pixel.
+// Over all windows, for pictures of so many samples a pixel. `flat` is their scene in flat colours.
 SamplingFloor samplingFloor(Renderer& renderer, const std::vector<RenderRequest>& windows,
-                            const std::vector<KnownTruth>& truths, int samples);
+                            const std::vector<KnownTruth>& truths, const ScenePtr& flat, int samples);
 
 }  // namespace curvewall

@@ -29,10 +29,20 @@ struct SettingName {
     std::string text() const;
 };
 
+// In a closed room around the eye, where every pixel with a ray shows one surface.
+struct RoomCoverage {
+    uint64_t uncoveredPixels = 0;
+    uint64_t twiceCoveredPixels = 0;
+};
+
 struct SettingResult {
     SettingName setting;
     std::string refusal;  // why it cannot be drawn; empty where it can, and only then the rest is there
     MethodErrors errors{};
+    // At pixel centres, with the scene in flat colours: of edges alone, whatever filters textures. Of one
+    // sample a pixel.
+    std::optional<ImageDifference> edges{};
+    RoomCoverage room{};
     Spread frameMs{};        // of the medians of the rounds
     nlohmann::json stats{};  // as docs/command-line.md has them: pieces, pairs, stages, overdraw, memory
     // PNG files relative to the report's folder, of settings that stand for their method: the whole picture,
@@ -58,6 +68,7 @@ struct TruthFacts {
 struct SamplingFloor {
     int samples = 1;
     double shareOff = 0;
+    double edgesOff = 0;  // in flat colours
     double psnrDb = 0;
     double supersampledPsnrDb = 0;
 };

@@ -24,6 +24,17 @@ void from_json(const json& in, SettingName& setting) {
     setting = {in.at("method"), in.at("variant"), in.at("knob"), in.at("value"), in.at("samples")};
 }
 
+static void to_json(json& out, const ImageDifference& image) {
+    out = {{"share_off", image.shareOff},
+           {"psnr_db", image.psnrDb},
+           {"ssim", image.ssim},
+           {"max_difference", image.maxDifference}};
+}
+
+static void from_json(const json& in, ImageDifference& image) {
+    image = {in.at("share_off"), numberOrInfinity(in.at("psnr_db")), in.at("ssim"), in.at("max_difference")};
+}
+
 void to_json(json& out, const MethodErrors& errors) {
     const Certificate& geometric = errors.geometric;
     const CoverageError& coverage = errors.coverage;
@@ -34,12 +45,8 @@ void to_json(json& out, const MethodErrors& errors) {
              {"max_at", {geometric.maxAt.x, geometric.maxAt.y}},
              {"empty_pixels", geometric.holes},
              {"misplaced_pixels", errors.misplacedPixels}}},
-           {"image",
-            {{"share_off", errors.image.shareOff},
-             {"psnr_db", errors.image.psnrDb},
-             {"ssim", errors.image.ssim},
-             {"max_difference", errors.image.maxDifference},
-             {"nan_texels", errors.nanTexels}}},
+           {"image", errors.image},
+           {"nan_texels", errors.nanTexels},
            {"coverage",
             {{"uncovered_pixels", coverage.uncoveredPixels},
              {"overdrawn_pixels", coverage.overdrawnPixels},
@@ -55,10 +62,8 @@ void from_json(const json& in, MethodErrors& errors) {
     errors.geometric.maxAt = {geometric.at("max_at").at(0), geometric.at("max_at").at(1)};
     errors.geometric.holes = geometric.at("empty_pixels");
     errors.misplacedPixels = geometric.at("misplaced_pixels");
-    const json& image = in.at("image");
-    errors.image = {image.at("share_off"), numberOrInfinity(image.at("psnr_db")), image.at("ssim"),
-                    image.at("max_difference")};
-    errors.nanTexels = image.at("nan_texels");
+    errors.image = in.at("image");
+    errors.nanTexels = in.at("nan_texels");
     const json& coverage = in.at("coverage");
     errors.coverage = {coverage.at("uncovered_pixels"), coverage.at("overdrawn_pixels"),
                        coverage.at("twice_covered_pixels")};
@@ -72,6 +77,9 @@ void to_json(json& out, const SettingResult& result) {
         return;
     }
     out["errors"] = result.errors;
+    if (result.edges) out["edges"] = *result.edges;
+    out["closed_room"] = {{"uncovered_pixels", result.room.uncoveredPixels},
+                          {"twice_covered_pixels", result.room.twiceCoveredPixels}};
     out["frame_ms"] = result.frameMs;
     out["stats"] = result.stats;
     if (!result.picture.empty()) out["pictures"]["picture"] = result.picture;
@@ -85,6 +93,9 @@ void from_json(const json& in, SettingResult& result) {
     result.refusal = in.value("refused", "");
     if (!result.refusal.empty()) return;
     result.errors = in.at("errors");
+    if (in.contains("edges")) result.edges = in.at("edges").get<ImageDifference>();
+    const json& room = in.at("closed_room");
+    result.room = {room.at("uncovered_pixels"), room.at("twice_covered_pixels")};
     result.frameMs = in.at("frame_ms");
     result.stats = in.at("stats");
     const json pictures = in.value("pictures", json::object());
@@ -107,12 +118,13 @@ void from_json(const json& in, TruthFacts& truth) {
 void to_json(json& out, const SamplingFloor& floor) {
     out = {{"samples", floor.samples},
            {"share_off", floor.shareOff},
+           {"edges_off", floor.edgesOff},
            {"psnr_db", floor.psnrDb},
            {"supersampled_psnr_db", floor.supersampledPsnrDb}};
 }
 
 void from_json(const json& in, SamplingFloor& floor) {
-    floor = {in.at("samples"), in.at("share_off"), numberOrInfinity(in.at("psnr_db")),
+    floor = {in.at("samples"), in.at("share_off"), in.at("edges_off"), numberOrInfinity(in.at("psnr_db")),
              numberOrInfinity(in.at("supersampled_psnr_db"))};
 }
 

@@ -4,6 +4,7 @@
 #include "renderer/image_file.h"
 #include "renderer/reference.h"
 #include "report/kept_json.h"
+#include "report/speed_report_json.h"
 
 #include <fmt/core.h>
 
@@ -67,9 +68,9 @@ void supersample(const Tracer& tracer, const Supersampling& supersampling, Known
         for (MeanPicture* half : {&even, &odd})
             half->add(tracer.trace(OutputKind::color, supersampling.raysAPass, ++seed));
         const double fourTimesInDb = 10 * std::log10(4.0);
-        truth.noiseDb = compareColor(even.frame(), odd.frame()).psnrDb + fourTimesInDb;
-        truth.supersamples = 2 * pair * supersampling.raysAPass;
-        if (truth.noiseDb >= supersampling.quietDb) break;
+        truth.facts.noiseDb = compareColor(even.frame(), odd.frame()).psnrDb + fourTimesInDb;
+        truth.facts.supersamples = 2 * pair * supersampling.raysAPass;
+        if (truth.facts.noiseDb >= supersampling.quietDb) break;
     }
     even.add(odd);
     truth.pictures.supersampled = tracer.blended(even.frame());
@@ -107,9 +108,8 @@ KnownTruth keptTruth(const RenderRequest& request, const std::string& viewKey,
     const std::string factsPath = stem + ".json";
 
     KnownTruth truth;
-    if (const auto facts = keptJson(factsPath)) {
-        truth.supersamples = facts->at("supersamples");
-        truth.noiseDb = numberOrInfinity(facts->at("noise_db"));
+    if (const auto facts = keptValue<TruthFacts>(factsPath)) {
+        truth.facts = *facts;
         for (const KeptPicture& kept : kPictures) truth.pictures.*kept.picture = readFrame(pathOf(kept));
         return truth;
     }
@@ -118,7 +118,7 @@ KnownTruth keptTruth(const RenderRequest& request, const std::string& viewKey,
     for (const KeptPicture& kept : kPictures)
         writeFrame(pathOf(kept), truth.pictures.*kept.picture, kept.output);
     // Last: where it is, the pictures are complete.
-    keepJson(factsPath, {{"supersamples", truth.supersamples}, {"noise_db", truth.noiseDb}});
+    keepJson(factsPath, truth.facts);
     return truth;
 }
 

@@ -17,8 +17,7 @@ struct Supersampling {
 
 struct KnownTruth {
     Truth pictures;
-    int supersamples = 0;
-    double noiseDb = 0;
+    TruthFacts facts;
 };
 
 // Of the request's wall, display, scene, camera and style. Noise is told by the two halves of the passes:

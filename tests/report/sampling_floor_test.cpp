@@ -1,5 +1,6 @@
 #include "report/sampling_floor.h"
 
+#include "report/flat_scene.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/rendering.h"
 #include "tests/support/small_walls.h"
@@ -59,10 +60,12 @@ TEST_F(SamplingFloors, OfFlatColoursIsNothingAtOneSample) {
     const auto windows = flatWindows(roomOnADome());
     std::vector<KnownTruth> truths;
     for (const RenderRequest& window : windows) truths.push_back(traceTruth(window, {16, 1, 60}));
+    const ScenePtr flat = flatScene(*windows[0].scene);
     Renderer renderer;
-    const SamplingFloor one = samplingFloor(renderer, windows, truths, 1);
-    const SamplingFloor four = samplingFloor(renderer, windows, truths, 4);
+    const SamplingFloor one = samplingFloor(renderer, windows, truths, flat, 1);
+    const SamplingFloor four = samplingFloor(renderer, windows, truths, flat, 4);
     EXPECT_LT(one.shareOff, 1e-4);
+    EXPECT_EQ(one.edgesOff, one.shareOff);
     EXPECT_GT(four.supersampledPsnrDb, one.supersampledPsnrDb + 3);
 }
 

@@ -67,20 +67,20 @@ TEST(ContentKey, DoesNotAskForTheMethod) {
 TEST(Truth, HasLessNoiseTheMoreRaysThereAre) {
     const KnownTruth few = traceTruth(roomOnADome(), {4, 1, 200});
     const KnownTruth many = traceTruth(roomOnADome(), {4, 16, 200});
-    EXPECT_EQ(few.supersamples, 8);
-    EXPECT_EQ(many.supersamples, 128);
+    EXPECT_EQ(few.facts.supersamples, 8);
+    EXPECT_EQ(many.facts.supersamples, 128);
     // Sixteen times as many independent passes have a sixteenth of the power: 12 dB.
-    EXPECT_NEAR(many.noiseDb - few.noiseDb, 12, 3);
+    EXPECT_NEAR(many.facts.noiseDb - few.facts.noiseDb, 12, 3);
 }
 
 // Against a truth of many more rays, which is taken as exact.
 TEST(Truth, StatesItsOwnNoise) {
     const KnownTruth stated = traceTruth(roomOnADome(), {16, 1, 200});
     const Frame exact = traceTruth(roomOnADome(), {64, 16, 200}).pictures.supersampled;
-    EXPECT_NEAR(compareColor(stated.pictures.supersampled, exact).psnrDb, stated.noiseDb, 2.5);
+    EXPECT_NEAR(compareColor(stated.pictures.supersampled, exact).psnrDb, stated.facts.noiseDb, 2.5);
 }
 
-TEST(Truth, StopsWhereItIsQuiet) { EXPECT_EQ(traceTruth(roomOnADome(), {4, 16, 10}).supersamples, 8); }
+TEST(Truth, StopsWhereItIsQuiet) { EXPECT_EQ(traceTruth(roomOnADome(), {4, 16, 10}).facts.supersamples, 8); }
 
 TEST(Truth, IsReadAgainBitByBit) {
     const test::TemporaryFolder folder;
@@ -95,8 +95,8 @@ TEST(Truth, IsReadAgainBitByBit) {
               written);
     for (const auto picture : {&Truth::color, &Truth::position, &Truth::coverage, &Truth::supersampled})
         EXPECT_TRUE(areSameBits(read.pictures.*picture, traced.pictures.*picture));
-    EXPECT_EQ(read.noiseDb, traced.noiseDb);
-    EXPECT_EQ(read.supersamples, traced.supersamples);
+    EXPECT_EQ(read.facts.noiseDb, traced.facts.noiseDb);
+    EXPECT_EQ(read.facts.supersamples, traced.facts.supersamples);
 }
 
 TEST(Truth, IsTracedAgainWhereItWasCutOff) {
@@ -106,7 +106,7 @@ TEST(Truth, IsTracedAgainWhereItWasCutOff) {
     keptTruth(request, key, {4, 1, 200}, folder.path());
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
         if (entry.path().extension() == ".json") std::filesystem::resize_file(entry.path(), 5);
-    EXPECT_EQ(keptTruth(request, key, {4, 1, 200}, folder.path()).supersamples, 8);
+    EXPECT_EQ(keptTruth(request, key, {4, 1, 200}, folder.path()).facts.supersamples, 8);
 }
 
 }  // namespace
