@@ -43,11 +43,14 @@ std::optional<double> aboveGeometricFloor(double errorPx) {
 }
 
 std::vector<NamedError> errorsOf(const ViewReport& view) {
+    // In flat colours where it was looked at: what filters textures is no matter of projection.
     const auto share = [&view](const SettingResult& result) -> std::optional<double> {
         const auto floor = std::ranges::find(view.floors, result.setting.samples, &SamplingFloor::samples);
-        const double least = floor == view.floors.end() ? 0 : floor->shareOff;
-        const double above = result.errors.image.shareOff - least;
-        if (!(above > kClearlyAbove * least)) return std::nullopt;
+        const SamplingFloor none, &least = floor == view.floors.end() ? none : *floor;
+        const double leastOff = result.edges ? least.edgesOff : least.shareOff;
+        const double above =
+            (result.edges ? result.edges->shareOff : result.errors.image.shareOff) - leastOff;
+        if (!(above > kClearlyAbove * leastOff)) return std::nullopt;
         return above;
     };
     return {{"geometric, largest",

@@ -13,10 +13,6 @@ constexpr double kHardlyAPixel = 1e-5;  // of all
 double errorPx(const SettingResult* result) { return result->errors.geometric.maxPx; }
 double frameMs(const SettingResult* result) { return result->frameMs.median; }
 
-uint64_t faultyPixels(const SettingResult& result) {
-    return result.errors.misplacedPixels + result.errors.coverage.total() + result.errors.nanTexels;
-}
-
 const SettingResult* fastest(const std::vector<const SettingResult*>& results, double tolerancePx,
                              glm::ivec2 sizePx) {
     const SettingResult* best = nullptr;
@@ -26,6 +22,12 @@ const SettingResult* fastest(const std::vector<const SettingResult*>& results, d
 }
 
 }  // namespace
+
+uint64_t faultyPixels(const SettingResult& result) {
+    const MethodErrors& errors = result.errors;
+    return errors.misplacedPixels + errors.coverage.total() + errors.nanTexels + result.room.uncoveredPixels +
+           result.room.twiceCoveredPixels;
+}
 
 bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {
     const double pixels = static_cast<double>(sizePx.x) * sizePx.y;
