@@ -172,6 +172,24 @@ Frame wrongPixelMap(const Frame& drawn, const Frame& truth, int widthPx) {
     return map;
 }
 
+Frame reduced(const Frame& frame, int widthPx) {
+    const Blocks blocks(frame.sizePx, widthPx);
+    const auto channels = static_cast<size_t>(frame.channels);
+    Frame result{blocks.sizePx, frame.channels, {}};
+    for (int y = 0; y < blocks.sizePx.y; ++y)
+        for (int x = 0; x < blocks.sizePx.x; ++x) {
+            std::vector<float> mean(channels);
+            float pixels = 0;
+            blocks.forEachPixel(x, y, [&](int column, int row) {
+                for (size_t channel = 0; channel < channels; ++channel)
+                    mean[channel] += frame.at(column, row)[channel];
+                ++pixels;
+            });
+            for (const float sum : mean) result.texels.push_back(sum / pixels);
+        }
+    return result;
+}
+
 Frame enlarged(const Frame& frame, Square square, int factor) {
     const glm::ivec2 sizePx = glm::min(glm::ivec2(square.sidePx), frame.sizePx);
     const glm::ivec2 corner = glm::clamp(square.cornerPx, glm::ivec2(0), frame.sizePx - sizePx);

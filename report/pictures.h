@@ -23,6 +23,9 @@ Frame errorMap(const std::vector<float>& errorsPx, glm::ivec2 sizePx, double tol
 // are colour frames of one size.
 Frame wrongPixelMap(const Frame& drawn, const Frame& truth, int widthPx = kMapWidthPx);
 
+// At most so wide; each pixel is the mean light of its block.
+Frame reduced(const Frame& frame, int widthPx);
+
 struct Square {
     glm::ivec2 cornerPx{0};  // top left
     int sidePx = 0;

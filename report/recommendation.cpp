@@ -13,10 +13,6 @@ constexpr double kHardlyAPixel = 1e-5;  // of all
 double errorPx(const SettingResult* result) { return result->errors.geometric.maxPx; }
 double frameMs(const SettingResult* result) { return result->frameMs.median; }
 
-uint64_t faultyPixels(const SettingResult& result) {
-    return result.errors.misplacedPixels + coverageFaults(result) + result.errors.nanTexels;
-}
-
 const SettingResult* fastest(const std::vector<const SettingResult*>& results, double tolerancePx,
                              glm::ivec2 sizePx) {
     const SettingResult* best = nullptr;
@@ -26,6 +22,10 @@ const SettingResult* fastest(const std::vector<const SettingResult*>& results, d
 }
 
 }  // namespace
+
+uint64_t faultyPixels(const SettingResult& result) {
+    return result.errors.misplacedPixels + result.errors.nanTexels + coverageFaults(result);
+}
 
 bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {
     const double pixels = static_cast<double>(sizePx.x) * sizePx.y;

@@ -3,6 +3,7 @@
 
 #include "report/speed_report.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct Recommendation {
 
 Recommendation recommend(const ViewReport& view, double tolerancePx);
 
-// Its largest geometric error is within, and hardly a pixel is misplaced, wrongly covered or no number.
+// Pixels that are misplaced, wrongly covered, in the scene or in a closed room, or no number.
+uint64_t faultyPixels(const SettingResult& result);
+
+// Its largest geometric error is within, and hardly a pixel is faulty.
 bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx);
 
 }  // namespace curvewall

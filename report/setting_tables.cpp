@@ -1,5 +1,6 @@
 #include "report/setting_tables.h"
 
+#include "report/recommendation.h"
 #include "report/words.h"
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ std::string madeOfText(const SettingResult& result) {
 
 Table settingsTable(const ViewReport& view, const SettingResult* best) {
     Table table{{"setting", "ms", "ms, rounds", "largest error, px", "99 in 100, px", "wrong pixels, %",
-                 "wrong edges, %", "PSNR, dB", "SSIM", "wrongly covered",
+                 "wrong, flat colours, %", "PSNR, dB", "SSIM", "faulty pixels",
                  fmt::format("PSNR of {} rays, dB", view.truth.supersamples), "made of", "pairs",
                  "overdraw, %", "on the GPU, MiB", "peak, MiB"},
                 {}};
@@ -69,10 +70,9 @@ Table settingsTable(const ViewReport& view, const SettingResult* best) {
              measureText(errors.geometric.maxPx), measureText(errors.geometric.p99Px),
              percentText(errors.image.shareOff), result.edges ? percentText(result.edges->shareOff) : kNone,
              decibelText(errors.image.psnrDb), fmt::format("{:.4f}", errors.image.ssim),
-             countText(coverageFaults(result) + errors.misplacedPixels),
-             decibelText(errors.supersampledPsnrDb), madeOfText(result), countAt(result.stats, "pairs"),
-             measureOr(100 * numberAt(result.stats, "overdraw")), measureOr(gpuMemoryMib(result)),
-             measureOr(numberAt(result.stats, "peak_memory_mib"))});
+             countText(faultyPixels(result)), decibelText(errors.supersampledPsnrDb), madeOfText(result),
+             countAt(result.stats, "pairs"), measureOr(100 * numberAt(result.stats, "overdraw")),
+             measureOr(gpuMemoryMib(result)), measureOr(numberAt(result.stats, "peak_memory_mib"))});
     }
     return table;
 }
@@ -84,10 +84,12 @@ Table stagesTable(const ViewReport& view) {
                    ? result.stats.value("stage_ms", nlohmann::json::object())
                    : nlohmann::json::object();
     };
-    for (const SettingResult& result : view.settings)
-        for (const auto& [stage, ms] : stagesOf(result).items())
+    for (const SettingResult& result : view.settings) {
+        const nlohmann::json stages = stagesOf(result);
+        for (const auto& [stage, ms] : stages.items())
             if (std::ranges::find(table.columns, stage) == table.columns.end())
                 table.columns.push_back(stage);
+    }
     for (const SettingResult& result : view.settings) {
         const nlohmann::json stages = stagesOf(result);
         if (stages.empty()) continue;

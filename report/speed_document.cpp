@@ -1,5 +1,6 @@
 #include "report/speed_document.h"
 
+#include "report/advice.h"
 #include "report/error_orders.h"
 #include "report/recommendation.h"
 #include "report/setting_tables.h"
@@ -15,150 +16,6 @@
 
 namespace curvewall {
 namespace {
-
-std::string viewName(const ViewReport& view) {
-    return fmt::format("`{}`, `{}`, with `{}`", view.wall, view.display, view.scene);
-}
-
-std::string pixelsText(double px) { return measureText(px) + " px"; }
-std::string timeText(const SettingResult& result) { return measureText(result.frameMs.median) + " ms"; }
-
-// "3.1 times as long"
-std::string comparedWith(const SettingResult& best, const SettingResult& other) {
-    return timesText(other.frameMs.median / best.frameMs.median);
-}
-
-std::string withMade(const SettingResult& result) {
-    const std::string made = madeOfText(result);
-    return made == "–" ? "" : made + ", ";
-}
-
-std::string useText(const SettingResult& best) {
-    std::string text = fmt::format("Use {}: {}{} a frame, at most {} off.", settingText(best.setting),
-                                   withMade(best), timeText(best), pixelsText(best.errors.geometric.maxPx));
-    if (const uint64_t faults = coverageFaults(best) + best.errors.misplacedPixels; faults > 0)
-        text += fmt::format(" {} {} covered wrongly.", countText(faults),
-                            faults == 1 ? "pixel is" : "pixels are");
-    return text;
-}
-
-const SamplingFloor* floorOf(const ViewReport& view, int samples) {
-    const auto floor = std::ranges::find(view.floors, samples, &SamplingFloor::samples);
-    return floor == view.floors.end() ? nullptr : &*floor;
-}
-
-std::string wrongPixelsText(const ViewReport& view, const SettingResult& result) {
-    std::string text = fmt::format("{} % of its pixels are wrong", percentText(result.errors.image.shareOff));
-    if (const SamplingFloor* floor = floorOf(view, result.setting.samples))
-        text += fmt::format("; an exact projection with the same sampling has {} %",
-                            percentText(floor->shareOff));
-    return text + ".";
-}
-
-std::string othersText(const Recommendation& answer, double tolerancePx) {
-    if (answer.others.empty()) return fmt::format("No other method keeps {} here.", pixelsText(tolerancePx));
-    std::string text =
-        fmt::format("Of the other methods that keep {}, the next is ", pixelsText(tolerancePx));
-    for (size_t i = 0; i < answer.others.size(); ++i) {
-        const SettingResult& other = *answer.others[i];
-        text += fmt::format("{}{}: {}, {}", i == 0 ? "" : "; then ", settingText(other.setting),
-                            timeText(other), comparedWith(*answer.best, other));
-    }
-    return text + ".";
-}
-
-std::string halfErrorText(const Recommendation& answer, double tolerancePx) {
-    if (!answer.halfError)
-        return fmt::format("Nothing keeps half the error, {}.", pixelsText(tolerancePx / 2));
-    if (answer.halfError == answer.best) return "It keeps half the error, too.";
-    return fmt::format("Half the error, {}, costs {}: {}, {}.", pixelsText(tolerancePx / 2),
-                       settingText(answer.halfError->setting), timeText(*answer.halfError),
-                       comparedWith(*answer.best, *answer.halfError));
-}
-
-// Why the most exact setting of a method is not good enough.
-std::string missText(const SettingResult& result) {
-    const uint64_t faults = coverageFaults(result) + result.errors.misplacedPixels;
-    std::string text = fmt::format("{} comes to {} in {}", settingText(result.setting),
-                                   pixelsText(result.errors.geometric.maxPx), timeText(result));
-    if (faults > 0) text += fmt::format(", with {} pixels covered wrongly", countText(faults));
-    if (result.errors.nanTexels > 0)
-        text += fmt::format(", with {} values that are no numbers", countText(result.errors.nanTexels));
-    return text;
-}
-
-std::string missingText(const Recommendation& answer, double tolerancePx) {
-    std::string text =
-        fmt::format("Not within {}, at the most exact that was measured: ", pixelsText(tolerancePx));
-    for (size_t i = 0; i < answer.missing.size(); ++i)
-        text += (i == 0 ? "" : "; ") + missText(*answer.missing[i]);
-    return text + ".";
-}
-
-std::string refusingText(const Recommendation& answer) {
-    std::string text;
-    for (size_t i = 0; i < answer.refusing.size(); ++i)
-        text += fmt::format("{}`{}`",
-                            i == 0                            ? ""
-                            : i + 1 == answer.refusing.size() ? " and "
-                                                              : ", ",
-                            answer.refusing[i]);
-    return text + (answer.refusing.size() == 1 ? " does" : " do") +
-           " not draw this display; the reason is below.";
-}
-
-void addAnswer(std::vector<Block>& blocks, const ViewReport& view, double tolerancePx) {
-    const Recommendation answer = recommend(view, tolerancePx);
-    blocks.emplace_back(Heading{3, viewName(view)});
-    if (answer.best) {
-        blocks.emplace_back(Paragraph{useText(*answer.best) + " " + wrongPixelsText(view, *answer.best)});
-        blocks.emplace_back(List{{othersText(answer, tolerancePx), halfErrorText(answer, tolerancePx)}});
-    } else {
-        blocks.emplace_back(
-            Paragraph{fmt::format("Nothing that was measured keeps {} here.", pixelsText(tolerancePx))});
-        blocks.emplace_back(List{});
-    }
-    std::vector<std::string>& items = std::get<List>(blocks.back()).items;
-    if (!answer.missing.empty()) items.push_back(missingText(answer, tolerancePx));
-    if (!answer.refusing.empty()) items.push_back(refusingText(answer));
-    if (items.empty()) blocks.pop_back();
-}
-
-Table summaryTable(const SpeedReport& report) {
-    Table table{{"wall, display", "scene", "use", "error, px", "ms", "next method", "times as long"}, {}};
-    for (const ViewReport& view : report.views) {
-        const Recommendation answer = recommend(view, report.tolerancePx);
-        std::vector<std::string> row{fmt::format("`{}`, `{}`", view.wall, view.display),
-                                     "`" + view.scene + "`"};
-        if (answer.best) {
-            row.insert(row.end(),
-                       {settingText(answer.best->setting), measureText(answer.best->errors.geometric.maxPx),
-                        measureText(answer.best->frameMs.median)});
-        } else {
-            row.insert(row.end(), {"nothing keeps it", "–", "–"});
-        }
-        if (answer.best && !answer.others.empty()) {
-            row.push_back(settingText(answer.others[0]->setting));
-            row.push_back(
-                fmt::format("{:.2g}", answer.others[0]->frameMs.median / answer.best->frameMs.median));
-        } else {
-            row.insert(row.end(), {"–", "–"});
-        }
-        table.rows.push_back(std::move(row));
-    }
-    return table;
-}
-
-void addAnswers(std::vector<Block>& blocks, const SpeedReport& report) {
-    blocks.emplace_back(Heading{2, "Which method to use"});
-    blocks.emplace_back(
-        Paragraph{fmt::format("Asked for: a picture in which nothing is shown more than {} away from where "
-                              "it belongs. Of all that keep "
-                              "this, the fastest.",
-                              pixelsText(report.tolerancePx))});
-    if (report.views.size() > 1) blocks.emplace_back(summaryTable(report));
-    for (const ViewReport& view : report.views) addAnswer(blocks, view, report.tolerancePx);
-}
 
 // Of the views, which mostly share them.
 std::string truthText(const SpeedReport& report) {
@@ -181,26 +38,24 @@ std::string truthText(const SpeedReport& report) {
 void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
     blocks.emplace_back(Heading{2, "How to read it"});
     blocks.emplace_back(List{
-        {"Geometric error: how many pixels away from its place a thing is shown. The largest of all "
-         "pixels counts; "
-         "beside it stands what 99 pixels in 100 keep.",
-         "Image error: the share of wrong pixels, which have a channel off by more than 8 of 255 from "
-         "the truth, "
-         "one exact ray through the centre of each pixel. PSNR and SSIM compare the same two pictures. Of "
-         "several samples a pixel the supersampled picture is the truth.",
-         "Wrong edges: the same with every surface in one flat colour, so that nothing can be wrong but "
-         "where things are; textures and their filters are left out.",
+        {"Geometric error: how many pixels away from its place a thing is shown. The largest of all pixels "
+         "counts. "
+         "Beside it stands what 99 pixels in 100 keep.",
+         "Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
+         "truth, "
+         "one exact ray through the centre of each pixel. With flat colours only edges can be wrong. PSNR "
+         "and "
+         "SSIM compare the same pictures as they are.",
          "Coverage error: pixels that show nothing where the truth has something all around, or something "
-         "where it has nothing; and in a closed room around the eye, pixels that show nothing, or the room "
-         "twice.",
-         "Floor of sampling: what stays wrong where the projection is exact, since drawing triangles "
-         "filters textures "
-         "in another way than tracing rays does. No method can be expected to come below.",
+         "where it has nothing; and in a closed room around the eye those that show nothing, or the room "
+         "twice. Faulty pixels are all of these, misplaced ones and those without a number.",
+         "Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
+         "textures "
+         "in another way than traced rays. No method can be expected to come below.",
          truthText(report),
-         "Time: of one frame, warm; the median of several rounds, and the fastest and slowest round. "
-         "Reading back "
-         "and writing files are not in it.",
-         "Grey steps: the Pareto front. What lies on it is beaten by nothing in both time and error."}});
+         "Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. Reading "
+         "back and writing files are not in it.",
+         "Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error."}});
     blocks.emplace_back(Paragraph{fmt::format(
         "Measured with `{}` on {}. Errors are the same everywhere; times are those of this machine.",
         report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,
@@ -208,13 +63,13 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
 }
 
 Table floorTable(const ViewReport& view) {
-    Table table{{"samples", "wrong pixels, %", "wrong edges, %", "PSNR, dB",
+    Table table{{"samples", "wrong pixels, %", "wrong, flat colours, %", "PSNR, dB",
                  fmt::format("PSNR of {} rays, dB", view.truth.supersamples)},
                 {}};
     for (const SamplingFloor& floor : view.floors)
         table.rows.push_back({std::to_string(floor.samples), percentText(floor.shareOff),
-                              floor.samples == 1 ? percentText(floor.edgesOff) : "–",
-                              decibelText(floor.psnrDb), decibelText(floor.supersampledPsnrDb)});
+                              percentText(floor.edgesOff), decibelText(floor.psnrDb),
+                              decibelText(floor.supersampledPsnrDb)});
     return table;
 }
 
@@ -226,10 +81,9 @@ void addOrders(std::vector<Block>& blocks, const ViewReport& view) {
         table.rows.push_back({"`" + order.curve + "`", order.error, fmt::format("{:.2f}", order.order),
                               fmt::format("{:g}", order.expected), std::to_string(order.points)});
     blocks.emplace_back(Heading{3, "How errors fall"});
-    blocks.emplace_back(
-        Paragraph{"An error of order 2 in a knob falls to a quarter when the knob is turned to half. Fitted "
-                  "to the points above "
-                  "the floor; of wrong edges the floor is taken off first."});
+    blocks.emplace_back(Paragraph{
+        "An error of order 2 falls to a quarter when the knob is turned to half; of order -1 it doubles. "
+        "Fitted to the points above the floor. Of wrong pixels the floor is taken off first."});
     blocks.emplace_back(table);
 }
 
@@ -316,8 +170,7 @@ void addView(std::vector<Block>& blocks, const ViewReport& view, double toleranc
 }  // namespace
 
 Document speedDocument(const SpeedReport& report) {
-    Document document{"Speed against error", {}};
-    addAnswers(document.blocks, report);
+    Document document{"Speed against error", adviceOf(report)};
     addExplanation(document.blocks, report);
     std::vector<std::string> stems;
     for (const ViewReport& view : report.views) {

@@ -19,7 +19,7 @@ using Measure = std::function<double(const SettingResult&)>;
 
 double geometricPx(const SettingResult& result) { return result.errors.geometric.maxPx; }
 double wrongPercent(const SettingResult& result) { return 100 * result.errors.image.shareOff; }
-// Of several samples a pixel there is no such number, and the curve has no such point.
+// Of several samples nothing is known in flat colours, and no logarithm shows 0.
 double wrongEdgesPercent(const SettingResult& result) {
     return result.edges ? 100 * result.edges->shareOff : 0;
 }
@@ -94,6 +94,8 @@ std::string viewTitle(const ViewReport& view) {
     return fmt::format("{}, {}, {}", view.wall, view.display, view.scene);
 }
 
+bool hasNoPoints(const Plot& plot) { return plot.front.empty(); }
+
 PlotFigure figureOf(const ViewReport& view, Plot plot, const Measure& measure, const std::string& unit) {
     plot.curves = curvesOf(view, measure, unit);
     std::vector<glm::dvec2> points = allPoints(plot.curves);
@@ -117,28 +119,27 @@ std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, c
     wrong.yLabel = "wrong pixels, %";
     wrong.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.shareOff; });
     Plot edges;
-    edges.yLabel = "wrong edges, %";
+    edges.yLabel = "wrong pixels in flat colours, %";
+    edges.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.edgesOff; });
     Plot psnr;
     psnr.yLabel = fmt::format("PSNR against {} rays a pixel, dB", view.truth.supersamples);
     psnr.logarithmicY = false;
     psnr.moreIsBetterY = true;
     psnr.levels = floorLevels(view, [](const SamplingFloor& floor) { return floor.supersampledPsnrDb; });
 
-    std::vector<PlotFigure> figures{figureOf(view, geometric, geometricPx, "px"),
-                                    figureOf(view, edges, wrongEdgesPercent, "% of edges wrong"),
-                                    figureOf(view, wrong, wrongPercent, "% wrong"),
-                                    figureOf(view, psnr, supersampledDb, "dB")};
+    std::vector<PlotFigure> figures{
+        figureOf(view, geometric, geometricPx, "px"), figureOf(view, wrong, wrongPercent, "% wrong"),
+        figureOf(view, edges, wrongEdgesPercent, "% wrong"), figureOf(view, psnr, supersampledDb, "dB")};
     figures[0].picture = {stem + "-geometric.png",
                           "Time against the largest geometric error. Lower left is better."};
-    figures[1].picture = {
-        stem + "-wrong-edges.png",
-        "Time against the share of wrong pixels in flat colours: the geometry's part. Lower "
-        "left is better."};
-    figures[2].picture = {stem + "-wrong-pixels.png",
+    figures[1].picture = {stem + "-wrong-pixels.png",
                           "Time against the share of wrong pixels. Lower left is better."};
+    figures[2].picture = {stem + "-wrong-edges.png",
+                          "The same in flat colours, where only edges can be wrong."};
     figures[3].picture = {
         stem + "-supersampled.png",
         "Time against likeness to the supersampled truth. Upper left is better; blur counts as likeness."};
+    std::erase_if(figures, [](const PlotFigure& figure) { return hasNoPoints(figure.plot); });
     return figures;
 }
 

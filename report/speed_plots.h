@@ -9,8 +9,9 @@
 
 namespace curvewall {
 
-// Against the geometric error, the share of wrong pixels and the PSNR against the supersampled truth. Of many
-// curves they show those nearest to the front, and of each method one at least. Files begin with `stem`.
+// Against the geometric error, the share of wrong pixels, that in flat colours where it is known, and the
+// PSNR against the supersampled truth. Of many curves they show those nearest to the front, and of each
+// method one at least. Files begin with `stem`.
 std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, const std::string& stem);
 
 }  // namespace curvewall

@@ -48,4 +48,10 @@ std::string settingText(const SettingName& setting) {
     return text;
 }
 
+std::string viewName(const ViewReport& view) {
+    return fmt::format("`{}`, `{}`, with `{}`", view.wall, view.display, view.scene);
+}
+
+std::string pixelsText(double px) { return measureText(px) + " px"; }
+
 }  // namespace curvewall

@@ -20,4 +20,7 @@ std::string timesText(double ratio);    // "3.1 times as long", "about as long"
 // "`image-based` (cube, linear) with faces of 2,048 px"
 std::string settingText(const SettingName& setting);
 
+std::string viewName(const ViewReport& view);  // "`dome-master`, `dome`, with `city`"
+std::string pixelsText(double px);             // "0.25 px"
+
 }  // namespace curvewall

@@ -114,6 +114,16 @@ TEST(WrongPixelMap, ThatIsSmallerLosesNone) {
     EXPECT_GT(bytes(map, 49, 29)[0], bytes(map, 49, 29)[1]);
 }
 
+TEST(Reduced, HasTheMeanLight) {
+    Frame frame = constantFrame({6, 2}, 0);
+    texel(frame, 0, 0, 1) = 1;
+    texel(frame, 5, 1, 2) = 0.5f;
+    const Frame small = reduced(frame, 3);
+    ASSERT_EQ(small.sizePx, glm::ivec2(3, 1));
+    EXPECT_EQ(small.texels, (std::vector<float>{0, 0.25f, 0, 0, 0, 0, 0, 0, 0.125f}));
+    EXPECT_EQ(reduced(frame, 6).texels, frame.texels);
+}
+
 TEST(Enlarged, RepeatsPixels) {
     Frame frame = constantFrame(kSizePx, 0);
     for (size_t i = 0; i < frame.texels.size(); ++i) frame.texels[i] = static_cast<float>(i);
