@@ -25,7 +25,8 @@ inline void startPaint(Scene& scene, size_t paint) {
 // A closed room around everything, so that a hole shows another colour.
 inline Scene insideRoom(float sizeM = 20) { return boxRoom(glm::vec3(sizeM)); }
 
-// A room and triangles of many sizes in it, all `scale` times as large as they are in metres.
-Scene clutteredRoom(float scale, int triangles = 60);
+// A room and triangles of many sizes in it, all `scale` times as large as they are in metres. Throws
+// UsageError where nothing of it can be drawn.
+Scene clutteredRoom(double scale, int triangles = 60);
 
 }  // namespace curvewall::hard_cases

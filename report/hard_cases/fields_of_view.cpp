@@ -50,7 +50,7 @@ std::vector<HardCaseFamily> fieldOfViewFamilies() {
          "overlapping "
          "panoramas do.",
          "arc, deg",
-         {300, 359.9, 360, 360.1, 540, 1440},
+         {300, 359.9, 360, 360.1, 540, 720},
          4,
          [](double value, int sizePx) {
              const glm::ivec2 size(sizePx, sizePx / 2);

@@ -12,8 +12,8 @@ constexpr double kAnyPx = std::numeric_limits<double>::infinity();
 constexpr double kPiecewisePx = 1.2 * kDefaultTolerancePx + 1.0 / 256;
 
 // As docs/methods.md states them.
-constexpr StatedBounds kPiecewise{kPiecewisePx, kPiecewisePx, 1e-3}, kImageBased{kAnyPx, 0.75, 1e-3},
-    kBoundedRaycast{1, 0.01, 1e-3}, kVertexWarp{kAnyPx, 0.25, 1e-3};
+constexpr StatedBounds kPiecewise{kPiecewisePx, kPiecewisePx}, kImageBased{kAnyPx, 0.75},
+    kBoundedRaycast{1, 0.01}, kVertexWarp{kAnyPx, 0.25};
 
 }  // namespace
 

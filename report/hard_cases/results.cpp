@@ -60,6 +60,7 @@ json toJson(const CaseResult& r) {
     }
     to["errors"] = toJson(r.errors);
     to["wrong_pixels"] = r.wrongPixels;
+    to["gap_pixels"] = r.gapPixels;
     to["wrong_share"] = r.wrongShare;
     to["fault"] = r.fault;
     return to;
@@ -73,6 +74,7 @@ CaseResult caseResultFromJson(const json& from) {
     }
     r.errors = methodErrorsFromJson(from.at("errors"));
     from.at("wrong_pixels").get_to(r.wrongPixels);
+    from.at("gap_pixels").get_to(r.gapPixels);
     from.at("wrong_share").get_to(r.wrongShare);
     from.at("fault").get_to(r.fault);
     return r;

@@ -25,9 +25,9 @@ struct CaseResult {
     std::string reason{};  // of a refusal or failure
     // Of what was drawn.
     MethodErrors errors{};
-    uint64_t wrongPixels = 0;
-    double wrongShare = 0;  // of all pixels
-    std::string fault{};    // what is beyond the method's bounds, in words; empty where nothing is
+    uint64_t wrongPixels = 0, gapPixels = 0;  // see wrong_pixels.h
+    double wrongShare = 0;                    // of all pixels
+    std::string fault{};  // what is beyond the method's bounds, in words; empty where nothing is
 
     bool isBroken() const { return outcome == Outcome::failed || !fault.empty(); }
 };

@@ -10,7 +10,7 @@ namespace {
 constexpr glm::dvec3 kEyeM(0.31, 0.22, 0.43);
 
 HardCase atScale(double scale, int sizePx) {
-    return {domeMaster(sizePx), shared(clutteredRoom(static_cast<float>(scale))), {scale * kEyeM, {}}};
+    return {domeMaster(sizePx), shared(clutteredRoom(scale)), {scale * kEyeM, {}}};
 }
 
 // A panel of squares of a tenth of a millimetre, 5 mm ahead of an eye that is far along x.
@@ -48,9 +48,10 @@ std::vector<HardCaseFamily> scaleFamilies() {
          [](double value, int sizePx) {
              HardCase made = atScale(1, sizePx);
              Scene scene = *made.scene;
-             scene.originM = value * glm::dvec3(0.7, 0.1, -0.7);
+             const glm::dvec3 movedM = value * glm::dvec3(0.7, 0.1, -0.7);
+             scene.originM += movedM;
              made.scene = shared(std::move(scene));
-             made.camera.positionM += made.scene->originM;
+             made.camera.positionM += movedM;
              return made;
          }},
         {"huge scenes",
@@ -58,7 +59,7 @@ std::vector<HardCaseFamily> scaleFamilies() {
          "lengths leave "
          "single precision.",
          "scale",
-         {1, 1e2, 1e4, 1e7, 1e10, 1e14, 1e18, 1e30},
+         {1, 1e2, 1e4, 1e7, 1e9, 1e11, 1e13, 1e30},
          3,
          atScale},
         {"tiny scenes",
@@ -74,7 +75,7 @@ std::vector<HardCaseFamily> scaleFamilies() {
          "single "
          "precision moves them, and what is drawn should be what is left of them.",
          "distance along the axis, m",
-         {0, 1, 10, 100, 1e3, 1e4},
+         {0, 1, 10, 100, 1e3},
          2,
          finePanel},
     };

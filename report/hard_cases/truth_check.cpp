@@ -40,8 +40,11 @@ public:
         sideDoubt_ = kLengthDoubt * glm::length(corners[0]) * glm::length(second) * glm::length(third);
     }
 
-    // `distance` is along a ray of length one, where it meets the plane.
-    Met meets(glm::dvec3 ray, double& distance) const {
+    // Where a ray of length one meets the plane, and how far that may be off.
+    struct Distance {
+        double m = 0, doubtM = 0;
+    };
+    Met meets(glm::dvec3 ray, Distance& distance) const {
         int above = 0, below = 0;
         for (size_t i = 0; i < 3; ++i) {
             const double volume = glm::dot(ray, planes_[i]);
@@ -49,7 +52,10 @@ public:
             below += volume < -doubts_[i];
         }
         if (above > 0 && below > 0) return Met::no;
-        distance = side_ / glm::dot(normal_, ray);
+        const double slope = glm::dot(normal_, ray);
+        distance.m = side_ / slope;
+        distance.doubtM = std::abs(distance.m) * (1e-3 + std::abs(sideDoubt_ / side_) +
+                                                  kLengthDoubt * glm::length(normal_) / std::abs(slope));
         if (!(std::abs(side_) > sideDoubt_)) return Met::doubtful;
         if ((side_ > 0 ? below : above) > 0) return Met::no;
         return above + below == 3 ? Met::yes : Met::doubtful;
@@ -82,20 +88,22 @@ Met isRight(const std::vector<SeenTriangle>& triangles, glm::dvec3 toWall, doubl
     constexpr double kNowhere = std::numeric_limits<double>::infinity();
     const double nearM = kNearShareOfWall * glm::length(toWall);
     const glm::dvec3 ray = glm::normalize(toWall);
-    double nearestM = kNowhere, doubtfulM = kNowhere;
+    SeenTriangle::Distance nearest{kNowhere, 0};
+    double doubtfulM = kNowhere;
     for (const SeenTriangle& triangle : triangles) {
-        double distanceM = 0;
-        const Met met = triangle.meets(ray, distanceM);
-        if (met == Met::no || distanceM < 0.9 * nearM) continue;
-        if (met == Met::yes && distanceM > 1.1 * nearM)
-            nearestM = std::min(nearestM, distanceM);
-        else
-            doubtfulM = std::min(doubtfulM, std::isfinite(distanceM) ? distanceM : 0);
+        SeenTriangle::Distance distance;
+        const Met met = triangle.meets(ray, distance);
+        if (met == Met::no || distance.m < 0.9 * nearM) continue;
+        if (met == Met::doubtful || distance.m < 1.1 * nearM)
+            doubtfulM = std::min(doubtfulM, std::isfinite(distance.m) ? distance.m - distance.doubtM : 0);
+        else if (distance.m < nearest.m)
+            nearest = distance;
     }
     const bool agrees =
-        std::isfinite(shownM) ? std::abs(shownM - nearestM) <= 1e-3 * nearestM : nearestM == kNowhere;
+        std::isfinite(shownM) ? std::abs(shownM - nearest.m) <= nearest.doubtM : nearest.m == kNowhere;
     if (agrees) return Met::yes;
-    return doubtfulM < 1.001 * nearestM ? Met::doubtful : Met::no;
+    const bool mayHide = std::isfinite(doubtfulM) && doubtfulM <= nearest.m + nearest.doubtM;
+    return mayHide ? Met::doubtful : Met::no;
 }
 
 }  // namespace
