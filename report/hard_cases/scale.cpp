@@ -67,7 +67,7 @@ std::vector<HardCaseFamily> scaleFamilies() {
          "for a "
          "lens).",
          "scale",
-         {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7},
+         {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6},
          3,
          atScale},
         {"fine details far along an axis",

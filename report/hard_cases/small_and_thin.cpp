@@ -102,7 +102,7 @@ std::vector<HardCaseFamily> smallAndThinFamilies() {
          "Scanned "
          "and sculpted models look like this from any distance.",
          "side of a triangle, px",
-         {8, 2, 0.5, 0.1, 1e-2, 1e-3},
+         {8, 2, 1, 0.5, 0.2, 0.1, 0.05},
          2,
          [](double value, int sizePx) {
              return HardCase{domeMaster(sizePx), shared(finePatch(value, sizePx))};
@@ -112,7 +112,7 @@ std::vector<HardCaseFamily> smallAndThinFamilies() {
          "pixel. "
          "Modellers cap cylinders like this.",
          "triangles",
-         {10, 100, 1e3, 1e4, 1e5},
+         {10, 100, 1e3, 1e4},
          1,
          [](double value, int sizePx) {
              return HardCase{domeMaster(sizePx), shared(fan(value))};

@@ -93,8 +93,7 @@ public:
             const HardCase tried = family_.make(value, options_.sizePx);
             const JudgedTruth judged = truthOf(renderer_, tried);
             const Frame& position = judged.truth.position;
-            result_.truths.push_back(
-                {value, "", checkTruth(truth.position, tried), shownError(truth.position, display).maxPx});
+            result_.truths.push_back({value, "", checkTruth(position, tried), judged.errors.geometric.maxPx});
             if (isPictured(value)) addPicture("reference", value, judged.truth.color);
             for (const HardCaseMethod& method : methods_) draw(value, method, tried, judged);
         } catch (const UsageError& refusal) {
