@@ -77,7 +77,7 @@ std::vector<HardCaseFamily> displayFamilies() {
          "The eye walks up to the middle of a flat screen of 2 m: a field of view of 180 degrees comes from "
          "below.",
          "distance of the eye from the screen, m",
-         {1, 0.1, 1e-2, 1e-4, 1e-6, 1e-8, 0},
+         {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0},
          1,
          [](double value, int sizePx) {
              return inRoom(flatScreen(sizePx, {0.1, 0.05, value - 1}));
@@ -85,7 +85,7 @@ std::vector<HardCaseFamily> displayFamilies() {
         {"screen edge on",
          "A flat screen seen from 2 m beside it, more and more along its surface.",
          "distance of the eye from the screen's plane, m",
-         {1, 0.1, 1e-2, 1e-4, 1e-6, 1e-8, 0},
+         {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0},
          1,
          [](double value, int sizePx) {
              return inRoom(flatScreen(sizePx, {3, 0.1, value - 1}));
