@@ -230,8 +230,8 @@ std::optional<std::vector<FamilyResult>> runHardCases(const SuiteOptions& option
     for (const HardCaseFamily& family : families) {
         std::optional<FamilyResult> result = keptResult(family, options);
         if (!result) {
-            // A renderer keeps what belongs to scenes and displays; the next family has others.
-            Renderer renderer;
+            // It keeps what belongs to scenes and displays, and each case has others.
+            Renderer renderer(1);
             const auto onCase = [&](const SuiteProgress& progress) {
                 if (onProgress)
                     onProgress({progress.family, progress.value, finished + progress.finishedCases, all});
