@@ -9,6 +9,7 @@ namespace curvewall {
 void addRenderCommand(CLI::App& app);
 void addInspectCommand(CLI::App& app);
 void addConvertCommand(CLI::App& app);
+void addReportCommand(CLI::App& app);
 void addServeCommand(CLI::App& app);
 
 }  // namespace curvewall

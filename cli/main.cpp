@@ -41,6 +41,7 @@ int runSubcommand(int argc, char** argv) {
     curvewall::addRenderCommand(app);
     curvewall::addInspectCommand(app);
     curvewall::addConvertCommand(app);
+    curvewall::addReportCommand(app);
     curvewall::addServeCommand(app);
     if (argc > 1 && argv[1][0] != '-') requireKnownSubcommand(app, argv[1]);
     try {

@@ -377,7 +377,7 @@ Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const 
         switch (options.output) {
             case OutputKind::color: {
                 glm::dvec3 sum(0);
-                for (const glm::dvec2 offset : samplePattern(options.samples, index))
+                for (const glm::dvec2 offset : samplePattern(options.samples, index ^ (options.seed << 40)))
                     sum += glm::dvec3(impl_->color(view, corner + offset, wall.background));
                 return put(glm::vec3(sum / static_cast<double>(options.samples)));
             }

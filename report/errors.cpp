@@ -66,10 +66,11 @@ MethodErrors errorsOf(const DrawnOutputs& drawn, const Truth& truth, const Displ
         }
     const std::vector<int32_t> owners(errorsPx.size(), 0);
     errors.geometric = certificateOf(errorsPx, owners, drawn.position.sizePx);
-    errors.image = compareColor(drawn.color, truth.color);
+    const bool knowsMany = !truth.supersampled.texels.empty();
+    errors.image =
+        compareColor(drawn.color, knowsMany && drawn.stats.samples > 1 ? truth.supersampled : truth.color);
+    if (knowsMany) errors.supersampledPsnrDb = compareColor(drawn.color, truth.supersampled).psnrDb;
     errors.coverage = coverageError(drawn.coverage, truth.coverage);
-    if (!truth.supersampled.texels.empty())
-        errors.supersampledPsnrDb = compareColor(drawn.color, truth.supersampled).psnrDb;
     errors.nanTexels = static_cast<uint64_t>(
         std::ranges::count_if(drawn.color.texels, [](float v) { return std::isnan(v); }));
     return errors;

@@ -1,5 +1,5 @@
 #pragma once
-// How far what a method draws is from the truth, in the three ways that docs/errors.md names.
+// How far what a method draws is from the truth, in the three ways that docs/report.md names.
 
 #include "calibration/pieces/certificate.h"
 #include "renderer/image_compare.h"

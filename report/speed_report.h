@@ -25,17 +25,34 @@ struct SettingName {
     int samples = 1;
 
     std::string curve() const { return variant.empty() ? method : method + ", " + variant; }
+    // With the knob: "image-based, cube, linear, 1024 px".
+    std::string text() const;
+};
+
+// In a closed room around the eye, where every pixel with a ray shows one surface.
+struct RoomCoverage {
+    uint64_t uncoveredPixels = 0;
+    uint64_t twiceCoveredPixels = 0;
 };
 
 struct SettingResult {
     SettingName setting;
     std::string refusal;  // why it cannot be drawn; empty where it can, and only then the rest is there
     MethodErrors errors{};
+    // At pixel centres, with the scene in flat colours: of edges alone, whatever filters textures. Of one
+    // sample a pixel.
+    std::optional<ImageDifference> edges{};
+    RoomCoverage room{};
     Spread frameMs{};        // of the medians of the rounds
     nlohmann::json stats{};  // as docs/command-line.md has them: pieces, pairs, stages, overdraw, memory
-    // PNG files relative to the report's folder: colours of what matters most, and error by pixel.
-    std::string crop, errorMap;
+    // PNG files relative to the report's folder, of settings that stand for their method: the whole picture,
+    // what matters most of it, and the geometric error by pixel.
+    std::string picture, crop, errorMap;
 };
+
+// Pixels that are not covered as they should be: in the scene those that show nothing for something or
+// something for nothing, in the closed room those that show nothing or the room twice.
+uint64_t coverageFaults(const SettingResult& result);
 
 // A curve's error against its knob: error ~ knob^order, by least squares over what lies above the floor.
 struct ErrorOrder {
@@ -55,6 +72,7 @@ struct TruthFacts {
 struct SamplingFloor {
     int samples = 1;
     double shareOff = 0;
+    double edgesOff = 0;  // in flat colours
     double psnrDb = 0;
     double supersampledPsnrDb = 0;
 };

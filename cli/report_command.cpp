@@ -1,0 +1,145 @@
+// curvewall report
+
+#include "calibration/errors.h"
+#include "cli/camera_option.h"
+#include "cli/commands.h"
+#include "cli/display_paths.h"
+#include "cli/option_checks.h"
+#include "cli/progress_bar.h"
+#include "cli/wall_option.h"
+#include "renderer/names.h"
+#include "renderer/scene/load_scene.h"
+#include "report/document.h"
+#include "report/measurement.h"
+#include "report/speed_document.h"
+#include "report/speed_report_json.h"
+#include "report/text_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace curvewall {
+namespace {
+
+struct ReportCommand {
+    std::vector<std::string> walls;
+    std::string size, display, camera, eye, style = "textured", suite, out, references;
+    std::vector<std::string> scenes;
+    double tolerancePx = kDefaultTolerancePx;
+    int rounds = 3, frames = 3;
+    bool isQuick = false;
+};
+
+// report.html, report.md and report.json, with the plots beside them.
+void writeReport(const std::string& folder, const Document& document, const nlohmann::json& json) {
+    writePlots(document, folder);
+    writeTextFile(folder + "/report.html", htmlOf(document, folder));
+    writeTextFile(folder + "/report.md", markdownOf(document));
+    writeTextFile(folder + "/report.json", json.dump(2) + "\n");
+    fmt::print("{0}/report.html, {0}/report.md, {0}/report.json\n", folder);
+}
+
+std::vector<View> viewsOf(const ReportCommand& command) {
+    std::vector<View> views;
+    std::vector<ScenePtr> scenes;
+    for (const std::string& scene : command.scenes) {
+        scenes.push_back(std::make_shared<const Scene>(loadScene(scene)));
+        for (const std::string& note : scenes.back()->notes) spdlog::warn("{}: {}", scene, note);
+    }
+    for (const std::string& path : command.walls) {
+        auto wall = std::make_shared<const Wall>(readWall({path, command.size}));
+        logWarnings(*wall);
+        if (!command.eye.empty())
+            wall = std::make_shared<const Wall>(seenFrom(*wall, eyeFromText(command.eye)));
+        for (const Display* display : chosenDisplays(*wall, command.display))
+            for (size_t i = 0; i < scenes.size(); ++i) {
+                RenderRequest request;
+                request.wall = wall;
+                request.display = display->name;
+                request.scene = scenes[i];
+                request.camera =
+                    command.camera.empty() ? scenes[i]->defaultCamera : cameraFromText(command.camera);
+                request.style = styleFromName(command.style).value();
+                request.tolerancePx = command.tolerancePx;
+                views.push_back({request, std::filesystem::path(path).stem().string(),
+                                 std::filesystem::path(command.scenes[i]).stem().string()});
+            }
+    }
+    return views;
+}
+
+void reportSpeed(const ReportCommand& command) {
+    if (command.walls.empty()) throw UsageError("report needs a WALL, or --suite hard-cases");
+    if (command.scenes.empty()) throw UsageError("report needs a --scene");
+    MeasurementPlan plan;
+    plan.views = viewsOf(command);
+    plan.tolerancePx = command.tolerancePx;
+    plan.extent = command.isQuick ? Extent::quick : Extent::full;
+    plan.rounds = command.rounds;
+    plan.frames = command.frames;
+    plan.folder = command.out;
+    plan.references = command.references.empty() ? command.out + "/references" : command.references;
+    SpeedReport report;
+    {
+        ProgressBar bar;
+        report = measureSpeed(plan, [&](const MeasurementProgress& progress) {
+            bar.show(progress.done, progress.all, progress.leftMs, progress.doing);
+        });
+    }
+    writeReport(command.out, speedDocument(report), report);
+}
+
+void run(const ReportCommand& command) {
+    makeFolder(command.out);
+    if (command.suite.empty()) return reportSpeed(command);
+    if (!command.walls.empty() || !command.scenes.empty())
+        throw UsageError("--suite hard-cases brings its own walls and scenes");
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& app) {
+    auto command = std::make_shared<ReportCommand>();
+    CLI::App* report = app.add_subcommand(
+        "report", "Measure every method's speed against its error on a wall, or the hard cases");
+    const auto oneOf = [](auto parse, const std::string& names) {
+        return CLI::Validator([=](std::string& text) { return parse(text) ? "" : "expected " + names; }, "");
+    };
+    report->add_option("WALL", command->walls, "Wall files, or calibrations of other programs");
+    report->add_option("--size", command->size,
+                       "WIDTHxHEIGHT of a calibration that names no resolution, pixels");
+    report->add_option(
+        "--scene", command->scenes,
+        "A .gltf, .glb or .obj file, city[:triangles[:seed]] or room; may be given several times");
+    report->add_option("--out", command->out, "Folder of the report, made where it is missing")->required();
+    report->add_option("--display", command->display, "Display of the wall; all of them without it");
+    report->add_option("--camera", command->camera,
+                       "Pose of the wall in the scene, x,y,z[,yaw,pitch,roll] in metres and degrees");
+    report->add_option("--eye", command->eye,
+                       "Where the eye is, x,y,z in wall coordinates, metres; the wall's own without it");
+    report->add_option("--style", command->style, styleNames())
+        ->check(oneOf(styleFromName, styleNames()))
+        ->capture_default_str();
+    report->add_option("--tolerance", command->tolerancePx, "The error that the wall is to keep, pixels")
+        ->check(CLI::Validator(checkTolerance, ""))
+        ->capture_default_str();
+    report->add_flag("--quick", command->isQuick, "Few settings, and a truth of fewer rays");
+    report->add_option("--rounds", command->rounds, "How often each setting is timed, in turns")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    report->add_option("--frames", command->frames, "Frames of a round")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    report->add_option("--references", command->references,
+                       "Folder that keeps the truth for other reports; OUT/references without it");
+    report->add_option("--suite", command->suite, "hard-cases: the numerical stability suite")
+        ->check(CLI::IsMember({"hard-cases"}));
+    report->callback([command] { run(*command); });
+}
+
+}  // namespace curvewall

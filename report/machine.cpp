@@ -1,0 +1,22 @@
+#include "report/machine.h"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <thread>
+
+namespace curvewall {
+
+std::string processorName() {
+    const std::string label = "model name";
+    std::string name = "unknown processor";
+    std::ifstream facts("/proc/cpuinfo");
+    for (std::string line; std::getline(facts, line);)
+        if (line.starts_with(label)) {
+            name = line.substr(line.find(':') + 2);
+            break;
+        }
+    return fmt::format("{}, {} threads", name, std::thread::hardware_concurrency());
+}
+
+}  // namespace curvewall

@@ -1,0 +1,66 @@
+#include "report/recommendation.h"
+
+#include <algorithm>
+#include <map>
+
+namespace curvewall {
+namespace {
+
+// Positions come as floats, so that what is certified to keep a tolerance may seem to miss it by as much.
+constexpr double kFloatPx = 0.001;
+constexpr double kHardlyAPixel = 1e-5;  // of all
+
+double errorPx(const SettingResult* result) { return result->errors.geometric.maxPx; }
+double frameMs(const SettingResult* result) { return result->frameMs.median; }
+
+uint64_t faultyPixels(const SettingResult& result) {
+    return result.errors.misplacedPixels + coverageFaults(result) + result.errors.nanTexels;
+}
+
+const SettingResult* fastest(const std::vector<const SettingResult*>& results, double tolerancePx,
+                             glm::ivec2 sizePx) {
+    const SettingResult* best = nullptr;
+    for (const SettingResult* result : results)
+        if (keeps(*result, tolerancePx, sizePx) && (!best || frameMs(result) < frameMs(best))) best = result;
+    return best;
+}
+
+}  // namespace
+
+bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {
+    const double pixels = static_cast<double>(sizePx.x) * sizePx.y;
+    return result.refusal.empty() && errorPx(&result) <= tolerancePx + kFloatPx &&
+           static_cast<double>(faultyPixels(result)) <= kHardlyAPixel * pixels;
+}
+
+Recommendation recommend(const ViewReport& view, double tolerancePx) {
+    std::vector<std::string> methods;
+    std::map<std::string, std::vector<const SettingResult*>> drawn;
+    std::vector<const SettingResult*> all;
+    for (const SettingResult& result : view.settings) {
+        const std::string& method = result.setting.method;
+        if (method == "reference" || result.setting.samples > 1) continue;
+        if (std::ranges::find(methods, method) == methods.end()) methods.push_back(method);
+        if (!result.refusal.empty()) continue;
+        drawn[method].push_back(&result);
+        all.push_back(&result);
+    }
+    Recommendation answer;
+    answer.best = fastest(all, tolerancePx, view.sizePx);
+    answer.halfError = fastest(all, tolerancePx / 2, view.sizePx);
+    for (const std::string& method : methods) {
+        const std::vector<const SettingResult*>& results = drawn[method];
+        if (results.empty()) {
+            answer.refusing.push_back(method);
+        } else if (const SettingResult* kept = fastest(results, tolerancePx, view.sizePx); !kept) {
+            answer.missing.push_back(*std::ranges::min_element(results, {}, errorPx));
+        } else if (kept->setting.method != answer.best->setting.method) {
+            answer.others.push_back(kept);
+        }
+    }
+    std::ranges::stable_sort(answer.others, {}, frameMs);
+    std::ranges::stable_sort(answer.missing, {}, errorPx);
+    return answer;
+}
+
+}  // namespace curvewall

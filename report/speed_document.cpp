@@ -1,0 +1,333 @@
+#include "report/speed_document.h"
+
+#include "report/error_orders.h"
+#include "report/recommendation.h"
+#include "report/setting_tables.h"
+#include "report/speed_plots.h"
+#include "report/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+std::string viewName(const ViewReport& view) {
+    return fmt::format("`{}`, `{}`, with `{}`", view.wall, view.display, view.scene);
+}
+
+std::string pixelsText(double px) { return measureText(px) + " px"; }
+std::string timeText(const SettingResult& result) { return measureText(result.frameMs.median) + " ms"; }
+
+// "3.1 times as long"
+std::string comparedWith(const SettingResult& best, const SettingResult& other) {
+    return timesText(other.frameMs.median / best.frameMs.median);
+}
+
+std::string withMade(const SettingResult& result) {
+    const std::string made = madeOfText(result);
+    return made == "–" ? "" : made + ", ";
+}
+
+std::string useText(const SettingResult& best) {
+    std::string text = fmt::format("Use {}: {}{} a frame, at most {} off.", settingText(best.setting),
+                                   withMade(best), timeText(best), pixelsText(best.errors.geometric.maxPx));
+    if (const uint64_t faults = coverageFaults(best) + best.errors.misplacedPixels; faults > 0)
+        text += fmt::format(" {} {} covered wrongly.", countText(faults),
+                            faults == 1 ? "pixel is" : "pixels are");
+    return text;
+}
+
+const SamplingFloor* floorOf(const ViewReport& view, int samples) {
+    const auto floor = std::ranges::find(view.floors, samples, &SamplingFloor::samples);
+    return floor == view.floors.end() ? nullptr : &*floor;
+}
+
+std::string wrongPixelsText(const ViewReport& view, const SettingResult& result) {
+    std::string text = fmt::format("{} % of its pixels are wrong", percentText(result.errors.image.shareOff));
+    if (const SamplingFloor* floor = floorOf(view, result.setting.samples))
+        text += fmt::format("; an exact projection with the same sampling has {} %",
+                            percentText(floor->shareOff));
+    return text + ".";
+}
+
+std::string othersText(const Recommendation& answer, double tolerancePx) {
+    if (answer.others.empty()) return fmt::format("No other method keeps {} here.", pixelsText(tolerancePx));
+    std::string text =
+        fmt::format("Of the other methods that keep {}, the next is ", pixelsText(tolerancePx));
+    for (size_t i = 0; i < answer.others.size(); ++i) {
+        const SettingResult& other = *answer.others[i];
+        text += fmt::format("{}{}: {}, {}", i == 0 ? "" : "; then ", settingText(other.setting),
+                            timeText(other), comparedWith(*answer.best, other));
+    }
+    return text + ".";
+}
+
+std::string halfErrorText(const Recommendation& answer, double tolerancePx) {
+    if (!answer.halfError)
+        return fmt::format("Nothing keeps half the error, {}.", pixelsText(tolerancePx / 2));
+    if (answer.halfError == answer.best) return "It keeps half the error, too.";
+    return fmt::format("Half the error, {}, costs {}: {}, {}.", pixelsText(tolerancePx / 2),
+                       settingText(answer.halfError->setting), timeText(*answer.halfError),
+                       comparedWith(*answer.best, *answer.halfError));
+}
+
+// Why the most exact setting of a method is not good enough.
+std::string missText(const SettingResult& result) {
+    const uint64_t faults = coverageFaults(result) + result.errors.misplacedPixels;
+    std::string text = fmt::format("{} comes to {} in {}", settingText(result.setting),
+                                   pixelsText(result.errors.geometric.maxPx), timeText(result));
+    if (faults > 0) text += fmt::format(", with {} pixels covered wrongly", countText(faults));
+    if (result.errors.nanTexels > 0)
+        text += fmt::format(", with {} values that are no numbers", countText(result.errors.nanTexels));
+    return text;
+}
+
+std::string missingText(const Recommendation& answer, double tolerancePx) {
+    std::string text =
+        fmt::format("Not within {}, at the most exact that was measured: ", pixelsText(tolerancePx));
+    for (size_t i = 0; i < answer.missing.size(); ++i)
+        text += (i == 0 ? "" : "; ") + missText(*answer.missing[i]);
+    return text + ".";
+}
+
+std::string refusingText(const Recommendation& answer) {
+    std::string text;
+    for (size_t i = 0; i < answer.refusing.size(); ++i)
+        text += fmt::format("{}`{}`",
+                            i == 0                            ? ""
+                            : i + 1 == answer.refusing.size() ? " and "
+                                                              : ", ",
+                            answer.refusing[i]);
+    return text + (answer.refusing.size() == 1 ? " does" : " do") +
+           " not draw this display; the reason is below.";
+}
+
+void addAnswer(std::vector<Block>& blocks, const ViewReport& view, double tolerancePx) {
+    const Recommendation answer = recommend(view, tolerancePx);
+    blocks.emplace_back(Heading{3, viewName(view)});
+    if (answer.best) {
+        blocks.emplace_back(Paragraph{useText(*answer.best) + " " + wrongPixelsText(view, *answer.best)});
+        blocks.emplace_back(List{{othersText(answer, tolerancePx), halfErrorText(answer, tolerancePx)}});
+    } else {
+        blocks.emplace_back(
+            Paragraph{fmt::format("Nothing that was measured keeps {} here.", pixelsText(tolerancePx))});
+        blocks.emplace_back(List{});
+    }
+    std::vector<std::string>& items = std::get<List>(blocks.back()).items;
+    if (!answer.missing.empty()) items.push_back(missingText(answer, tolerancePx));
+    if (!answer.refusing.empty()) items.push_back(refusingText(answer));
+    if (items.empty()) blocks.pop_back();
+}
+
+Table summaryTable(const SpeedReport& report) {
+    Table table{{"wall, display", "scene", "use", "error, px", "ms", "next method", "times as long"}, {}};
+    for (const ViewReport& view : report.views) {
+        const Recommendation answer = recommend(view, report.tolerancePx);
+        std::vector<std::string> row{fmt::format("`{}`, `{}`", view.wall, view.display),
+                                     "`" + view.scene + "`"};
+        if (answer.best) {
+            row.insert(row.end(),
+                       {settingText(answer.best->setting), measureText(answer.best->errors.geometric.maxPx),
+                        measureText(answer.best->frameMs.median)});
+        } else {
+            row.insert(row.end(), {"nothing keeps it", "–", "–"});
+        }
+        if (answer.best && !answer.others.empty()) {
+            row.push_back(settingText(answer.others[0]->setting));
+            row.push_back(
+                fmt::format("{:.2g}", answer.others[0]->frameMs.median / answer.best->frameMs.median));
+        } else {
+            row.insert(row.end(), {"–", "–"});
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+void addAnswers(std::vector<Block>& blocks, const SpeedReport& report) {
+    blocks.emplace_back(Heading{2, "Which method to use"});
+    blocks.emplace_back(
+        Paragraph{fmt::format("Asked for: a picture in which nothing is shown more than {} away from where "
+                              "it belongs. Of all that keep "
+                              "this, the fastest.",
+                              pixelsText(report.tolerancePx))});
+    if (report.views.size() > 1) blocks.emplace_back(summaryTable(report));
+    for (const ViewReport& view : report.views) addAnswer(blocks, view, report.tolerancePx);
+}
+
+// Of the views, which mostly share them.
+std::string truthText(const SpeedReport& report) {
+    int fewest = 0;
+    double noisiest = 0;
+    for (const ViewReport& view : report.views) {
+        if (fewest == 0 || view.truth.supersamples < fewest) {
+            fewest = view.truth.supersamples;
+            noisiest = view.truth.noiseDb;
+        }
+        noisiest = std::min(noisiest, view.truth.noiseDb);
+    }
+    return fmt::format(
+        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel, whose own noise is {} dB. Beyond "
+        "that, "
+        "differences say nothing. It rewards blur, so that it decides nothing here.",
+        fewest, decibelText(noisiest));
+}
+
+void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
+    blocks.emplace_back(Heading{2, "How to read it"});
+    blocks.emplace_back(List{
+        {"Geometric error: how many pixels away from its place a thing is shown. The largest of all "
+         "pixels counts; "
+         "beside it stands what 99 pixels in 100 keep.",
+         "Image error: the share of wrong pixels, which have a channel off by more than 8 of 255 from "
+         "the truth, "
+         "one exact ray through the centre of each pixel. PSNR and SSIM compare the same two pictures. Of "
+         "several samples a pixel the supersampled picture is the truth.",
+         "Wrong edges: the same with every surface in one flat colour, so that nothing can be wrong but "
+         "where things are; textures and their filters are left out.",
+         "Coverage error: pixels that show nothing where the truth has something all around, or something "
+         "where it has nothing; and in a closed room around the eye, pixels that show nothing, or the room "
+         "twice.",
+         "Floor of sampling: what stays wrong where the projection is exact, since drawing triangles "
+         "filters textures "
+         "in another way than tracing rays does. No method can be expected to come below.",
+         truthText(report),
+         "Time: of one frame, warm; the median of several rounds, and the fastest and slowest round. "
+         "Reading back "
+         "and writing files are not in it.",
+         "Grey steps: the Pareto front. What lies on it is beaten by nothing in both time and error."}});
+    blocks.emplace_back(Paragraph{fmt::format(
+        "Measured with `{}` on {}. Errors are the same everywhere; times are those of this machine.",
+        report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,
+        report.processor.empty() ? "an unnamed processor" : report.processor)});
+}
+
+Table floorTable(const ViewReport& view) {
+    Table table{{"samples", "wrong pixels, %", "wrong edges, %", "PSNR, dB",
+                 fmt::format("PSNR of {} rays, dB", view.truth.supersamples)},
+                {}};
+    for (const SamplingFloor& floor : view.floors)
+        table.rows.push_back({std::to_string(floor.samples), percentText(floor.shareOff),
+                              floor.samples == 1 ? percentText(floor.edgesOff) : "–",
+                              decibelText(floor.psnrDb), decibelText(floor.supersampledPsnrDb)});
+    return table;
+}
+
+void addOrders(std::vector<Block>& blocks, const ViewReport& view) {
+    const std::vector<ErrorOrder> orders = errorOrders(view);
+    if (orders.empty()) return;
+    Table table{{"method", "error", "order", "expected", "points"}, {}};
+    for (const ErrorOrder& order : orders)
+        table.rows.push_back({"`" + order.curve + "`", order.error, fmt::format("{:.2f}", order.order),
+                              fmt::format("{:g}", order.expected), std::to_string(order.points)});
+    blocks.emplace_back(Heading{3, "How errors fall"});
+    blocks.emplace_back(
+        Paragraph{"An error of order 2 in a knob falls to a quarter when the knob is turned to half. Fitted "
+                  "to the points above "
+                  "the floor; of wrong edges the floor is taken off first."});
+    blocks.emplace_back(table);
+}
+
+void addFloor(std::vector<Block>& blocks, const ViewReport& view) {
+    if (view.floors.empty()) return;
+    blocks.emplace_back(Heading{3, "Floor of sampling"});
+    blocks.emplace_back(Paragraph{
+        "Of plain perspective pictures as dense as this display, where every method projects exactly."});
+    blocks.emplace_back(floorTable(view));
+}
+
+std::string pictureText(const SettingResult& result) {
+    return fmt::format("{}: {}, {} % wrong", settingText(result.setting),
+                       pixelsText(result.errors.geometric.maxPx), percentText(result.errors.image.shareOff));
+}
+
+void addPictures(std::vector<Block>& blocks, const ViewReport& view) {
+    PictureRow crops, maps;
+    if (!view.truth.crop.empty()) crops.pictures.push_back({view.truth.crop, "The truth"});
+    for (const SettingResult& result : view.settings) {
+        if (!result.crop.empty()) crops.pictures.push_back({result.crop, pictureText(result)});
+        if (!result.errorMap.empty())
+            maps.pictures.push_back({result.errorMap, settingText(result.setting) + ": at most " +
+                                                          pixelsText(result.errors.geometric.maxPx)});
+    }
+    if (!view.truth.picture.empty()) {
+        blocks.emplace_back(Heading{3, "The picture"});
+        blocks.emplace_back(PictureRow{{{view.truth.picture, "The truth: exact rays"}}});
+    }
+    if (!crops.pictures.empty()) {
+        blocks.emplace_back(Heading{3, "Side by side"});
+        blocks.emplace_back(
+            Paragraph{"The same place in every picture, enlarged: where they differ most from the truth."});
+        blocks.emplace_back(crops);
+    }
+    if (!maps.pictures.empty()) {
+        blocks.emplace_back(Heading{3, "Error by pixel"});
+        blocks.emplace_back(Paragraph{
+            "The geometric error, darker where it is smaller. All maps have one scale. Grey shows nothing."});
+        blocks.emplace_back(maps);
+    }
+}
+
+void addRefusals(std::vector<Block>& blocks, const ViewReport& view) {
+    List reasons;
+    for (const SettingResult& result : view.settings) {
+        if (result.refusal.empty()) continue;
+        // One reason for all that a method's knob may be turned to.
+        const std::string reason = fmt::format("`{}`: {}", result.setting.curve(), result.refusal);
+        if (std::ranges::find(reasons.items, reason) == reasons.items.end()) reasons.items.push_back(reason);
+    }
+    if (reasons.items.empty()) return;
+    blocks.emplace_back(Heading{3, "Not drawn"});
+    blocks.emplace_back(std::move(reasons));
+}
+
+std::string fileStem(const ViewReport& view) {
+    std::string stem = view.wall + "-" + view.display + "-" + view.scene;
+    for (char& c : stem)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
+    return stem;
+}
+
+void addView(std::vector<Block>& blocks, const ViewReport& view, double tolerancePx,
+             const std::string& stem) {
+    blocks.emplace_back(Heading{2, viewName(view)});
+    blocks.emplace_back(Paragraph{
+        fmt::format("{} x {} pixels, projection `{}`.", view.sizePx.x, view.sizePx.y, view.projection)});
+    for (PlotFigure& figure : speedPlots(view, tolerancePx, "plots/" + stem))
+        blocks.emplace_back(std::move(figure));
+    addPictures(blocks, view);
+    blocks.emplace_back(Heading{3, "All settings"});
+    blocks.emplace_back(settingsTable(view, recommend(view, tolerancePx).best));
+    if (Table stages = stagesTable(view); !stages.rows.empty()) {
+        blocks.emplace_back(Heading{3, "Where the time goes"});
+        blocks.emplace_back(Paragraph{"Milliseconds on the GPU by stage, medians of one measurement."});
+        blocks.emplace_back(std::move(stages));
+    }
+    addOrders(blocks, view);
+    addFloor(blocks, view);
+    addRefusals(blocks, view);
+}
+
+}  // namespace
+
+Document speedDocument(const SpeedReport& report) {
+    Document document{"Speed against error", {}};
+    addAnswers(document.blocks, report);
+    addExplanation(document.blocks, report);
+    std::vector<std::string> stems;
+    for (const ViewReport& view : report.views) {
+        std::string stem = fileStem(view);
+        // Names that differ in other signs alone would share their files.
+        if (const auto same = std::ranges::count(stems, stem)) stem += fmt::format("-{}", same + 1);
+        stems.push_back(fileStem(view));
+        addView(document.blocks, view, report.tolerancePx, stem);
+    }
+    return document;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,16 @@
+#pragma once
+// Time against each of the errors, of one view.
+
+#include "report/document.h"
+#include "report/speed_report.h"
+
+#include <string>
+#include <vector>
+
+namespace curvewall {
+
+// Against the geometric error, the share of wrong pixels and the PSNR against the supersampled truth. Of many
+// curves they show those nearest to the front, and of each method one at least. Files begin with `stem`.
+std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, const std::string& stem);
+
+}  // namespace curvewall
