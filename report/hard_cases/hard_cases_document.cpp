@@ -168,11 +168,9 @@ std::optional<PlotFigure> errorPlot(const Told& told) {
     }
     if (points < 3) return std::nullopt;
     plot.logarithmicX = most > 20 * least;
-    std::string stem = "hard-case-" + told.family.name;
-    std::erase(stem, ',');
-    std::ranges::replace(stem, ' ', '-');
     return PlotFigure{plot,
-                      {stem + "-error.png", "Largest geometric error by the " + told.family.parameter + "."}};
+                      {"hard-case-" + stemOf(told.family.name) + "-error.png",
+                       "Largest geometric error by the " + told.family.parameter + "."}};
 }
 
 std::string truthText(const Told& told) {

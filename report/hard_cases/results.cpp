@@ -1,7 +1,8 @@
 #include "report/hard_cases/results.h"
 
+#include "report/kept_json.h"
+
 #include <algorithm>
-#include <limits>
 
 namespace curvewall {
 namespace {
@@ -11,11 +12,6 @@ using nlohmann::json;
 NLOHMANN_JSON_SERIALIZE_ENUM(Outcome, {{Outcome::drawn, "drawn"},
                                        {Outcome::refused, "refused"},
                                        {Outcome::failed, "failed"}})
-
-// JSON has no infinity; what it writes in its place is null.
-double numberOf(const json& number) {
-    return number.is_null() ? std::numeric_limits<double>::infinity() : number.get<double>();
-}
 
 json toJson(const MethodErrors& e) {
     return {{"geometric_px",
@@ -37,12 +33,12 @@ MethodErrors methodErrorsFromJson(const json& from) {
     MethodErrors e;
     const json &geometric = from.at("geometric_px"), &image = from.at("image"),
                &coverage = from.at("coverage");
-    e.geometric.maxPx = numberOf(geometric.at("max"));
-    e.geometric.p99Px = numberOf(geometric.at("p99"));
-    e.geometric.meanPx = numberOf(geometric.at("mean"));
+    e.geometric.maxPx = numberOrInfinity(geometric.at("max"));
+    e.geometric.p99Px = numberOrInfinity(geometric.at("p99"));
+    e.geometric.meanPx = numberOrInfinity(geometric.at("mean"));
     from.at("misplaced_pixels").get_to(e.misplacedPixels);
     image.at("share_off").get_to(e.image.shareOff);
-    e.image.psnrDb = numberOf(image.at("psnr_db"));
+    e.image.psnrDb = numberOrInfinity(image.at("psnr_db"));
     image.at("ssim").get_to(e.image.ssim);
     image.at("max_difference").get_to(e.image.maxDifference);
     coverage.at("uncovered").get_to(e.coverage.uncoveredPixels);
@@ -93,7 +89,7 @@ CaseTruth caseTruthFromJson(const json& from) {
     return {from.at("value"),
             from.at("refusal"),
             {from.at("checked_pixels"), from.at("doubtful_pixels"), from.at("wrong_pixels")},
-            numberOf(from.at("geometric_px"))};
+            numberOrInfinity(from.at("geometric_px"))};
 }
 
 }  // namespace
@@ -102,6 +98,12 @@ const CaseResult* FamilyResult::find(double value, const std::string& method) co
     const auto found = std::ranges::find_if(
         results, [&](const CaseResult& r) { return r.value == value && r.method == method; });
     return found == results.end() ? nullptr : &*found;
+}
+
+std::string stemOf(std::string name) {
+    std::erase(name, ',');
+    std::ranges::replace(name, ' ', '-');
+    return name;
 }
 
 json toJson(const FamilyResult& result) {

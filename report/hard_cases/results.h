@@ -55,6 +55,9 @@ struct FamilyResult {
     const CaseResult* find(double value, const std::string& method) const;
 };
 
+// A name as it is in names of files.
+std::string stemOf(std::string name);
+
 nlohmann::json toJson(const FamilyResult& result);
 // Throws nlohmann::json::exception for anything that toJson does not write.
 FamilyResult familyResultFromJson(const nlohmann::json& json);

@@ -3,15 +3,15 @@
 #include "calibration/errors.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/image_file.h"
+#include "report/content_key.h"
 #include "report/hard_cases/wrong_pixels.h"
+#include "report/kept_json.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <utility>
 
 namespace curvewall {
@@ -117,12 +117,10 @@ private:
     }
 
     void addPicture(const std::string& method, double value, const Frame& color) {
-        std::string stem = "hard-case-" + family_.name + "-" + method;
-        std::erase(stem, ',');
-        std::ranges::replace(stem, ' ', '-');
-        writeFrame((std::filesystem::path(options_.folder) / (stem + ".png")).string(), color);
-        result_.pictures.push_back({stem + ".png", fmt::format("{} at {:g} ({}): {}", family_.name, value,
-                                                               family_.parameter, method)});
+        const std::string file = "hard-case-" + stemOf(family_.name + "-" + method) + ".png";
+        writeFrame((std::filesystem::path(options_.folder) / file).string(), color);
+        result_.pictures.push_back(
+            {file, fmt::format("{} at {:g} ({}): {}", family_.name, value, family_.parameter, method)});
     }
 
     void draw(double value, const HardCaseMethod& method, const HardCase& tried, const JudgedTruth& judged) {
@@ -163,7 +161,7 @@ private:
 
 // All that a family's results depend on, as far as it can be told.
 json keyOf(const HardCaseFamily& family, const SuiteOptions& options) {
-    json key{{"version", CURVEWALL_VERSION},
+    json key{{"program", keyOfThisProgram()},
              {"family", family.name},
              {"values", family.values},
              {"size_px", options.sizePx},
@@ -174,21 +172,17 @@ json keyOf(const HardCaseFamily& family, const SuiteOptions& options) {
     return key;
 }
 
-std::filesystem::path keptFile(const HardCaseFamily& family, const SuiteOptions& options) {
-    std::string stem = family.name;
-    std::erase(stem, ',');
-    std::ranges::replace(stem, ' ', '-');
-    return std::filesystem::path(options.folder) / ("hard-case-" + stem + ".json");
+std::string keptFile(const HardCaseFamily& family, const SuiteOptions& options) {
+    return (std::filesystem::path(options.folder) / ("hard-case-" + stemOf(family.name) + ".json")).string();
 }
 
 // Nothing where the file is another's, of another run or damaged: the family is run again then.
 std::optional<FamilyResult> keptResult(const HardCaseFamily& family, const SuiteOptions& options) {
     if (options.folder.empty()) return std::nullopt;
+    const std::optional<json> kept = keptJson(keptFile(family, options));
     try {
-        std::ifstream file(keptFile(family, options));
-        const json kept = json::parse(file);
-        if (kept.at("key") != keyOf(family, options)) return std::nullopt;
-        FamilyResult result = familyResultFromJson(kept.at("result"));
+        if (!kept || kept->at("key") != keyOf(family, options)) return std::nullopt;
+        FamilyResult result = familyResultFromJson(kept->at("result"));
         for (const CasePicture& picture : result.pictures)
             if (!std::filesystem::exists(std::filesystem::path(options.folder) / picture.file))
                 return std::nullopt;
@@ -196,13 +190,6 @@ std::optional<FamilyResult> keptResult(const HardCaseFamily& family, const Suite
     } catch (const json::exception&) {
         return std::nullopt;
     }
-}
-
-void keep(const HardCaseFamily& family, const SuiteOptions& options, const FamilyResult& result) {
-    const std::filesystem::path path = keptFile(family, options);
-    std::ofstream file(path);
-    file << json{{"key", keyOf(family, options)}, {"result", toJson(result)}}.dump(1) << '\n';
-    if (!file.flush()) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
 }  // namespace
@@ -238,7 +225,9 @@ std::optional<std::vector<FamilyResult>> runHardCases(const SuiteOptions& option
             };
             result = runFamily(renderer, family, options, onCase, stop);
             if (!result) return std::nullopt;
-            if (!options.folder.empty()) keep(family, options, *result);
+            if (!options.folder.empty())
+                keepJson(keptFile(family, options),
+                         {{"key", keyOf(family, options)}, {"result", toJson(*result)}});
         }
         finished += family.values.size();
         results.push_back(std::move(*result));
