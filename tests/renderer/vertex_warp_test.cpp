@@ -178,6 +178,26 @@ TEST_F(VertexWarp, ErrorFallsAsTheSquareOfTheLength) {
     }
 }
 
+// Thinner on the screen than the rasterizer's grid is fine.
+TEST_F(VertexWarp, TrianglesSeenEdgeOnShowNoPointsFarOutsideThem) {
+    test::Random random(6);
+    Scene scene;
+    startMaterial(scene, plainMaterial(glm::vec3(1)));
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::dvec3 ahead = random.direction();
+        const glm::dvec3 aside = glm::normalize(glm::cross(ahead, random.direction()));
+        const glm::dvec3 middle = random.uniform(5, 100) * ahead;
+        const double size = 0.1 * glm::length(middle), offEdge = 1e-3 * random.uniform(-1, 1);
+        const glm::dvec3 across = glm::normalize(glm::cross(ahead, aside));
+        addTriangle(scene, {glm::vec3(middle - 0.5 * size * aside), glm::vec3(middle + 0.5 * size * aside),
+                            glm::vec3(middle + 0.4 * size * (aside + ahead + offEdge * across))});
+    }
+    for (const Wall& wall : {test::lensWall(kDome, {1024, 1024}), test::fullCylinderWall({1600, 1200})}) {
+        RenderRequest request = warpRequest(wall, scene, {}, 16);
+        EXPECT_LT(errorAt(request, 16).maxPx, 3) << wall.name;
+    }
+}
+
 TEST_F(VertexWarp, IsExactWhereStraightLinesStayStraight) {
     const RenderRequest request =
         warpRequest(test::planarWall(kSizePx, 100), loadScene("city:2000"), {{0, 8, 0}, {}}, 0);
