@@ -234,9 +234,10 @@ ScreenMap screenMapOf(const Display& display, const PixelRays& rays) {
     ScreenMapNumbers& numbers = map.numbers;
     const Cone seen = Cone::about(rays);
     chooseMap(display, rays, seen, map);
-    // Pixels reach beyond their centres, and straight lines into the display from beside it.
-    constexpr double kMarginRad = 0.02, kReach = 1.1;
-    const double halfRad = std::min(kReach * seen.halfRad + kMarginRad, kPi);
+    // Pixels reach beyond their centres, and straight lines into the display from beside it: at 45 degrees
+    // around a round picture by 8% of its radius, which is a small angle but where wide lenses are flat.
+    constexpr double kMarginRad = 0.02, kReach = 1.15, kWideRad = 100 * kPi / 180;
+    const double halfRad = seen.halfRad > kWideRad ? kPi : std::min(kReach * seen.halfRad + kMarginRad, kPi);
     numbers.seenCone = glm::vec4(seen.axis, std::cos(halfRad));
     numbers.size.x = static_cast<float>(display.sizePx.x);
     numbers.size.y = static_cast<float>(display.sizePx.y);

@@ -17,10 +17,13 @@ class PixelDistance {
 public:
     explicit PixelDistance(const Display& display);
 
-    // To the nearest place that sees `ray`; nothing where no place does.
+    // To the nearest place that sees `ray`, or that would just beyond the border of what the projection
+    // knows. Nothing where no place does.
     std::optional<double> from(glm::dvec2 px, glm::dvec3 ray) const;
 
 private:
+    std::optional<double> acrossTheBorder(glm::dvec2 px, glm::dvec3 ray) const;
+
     const Display& display_;
     bool isClosed_;
 };

@@ -7,7 +7,7 @@ layout(local_size_x = GROUP_SIZE) in;
 
 #ifdef WARP
 #include "warp_parts.glsl"
-layout(std430, binding = 8) writeonly buffer Parts { vec2 parts[]; };  // of each pair: the part's three corners, where divided
+layout(std430, binding = 8) writeonly buffer Parts { uvec2 parts[]; };  // of each pair: the part's three corners, where divided
 #else
 #include "piece_coverage.glsl"
 #endif
@@ -57,7 +57,7 @@ void take(uint piece, uint nth) {
     if (next + nth >= capacity) return;
     pairs[next + nth] = uvec2(triangleAndFacing, piece);
 #ifdef WARP
-    for (uint i = 0u; i < 3u; ++i) parts[3u * (next + nth) + i] = partCorners[i];
+    for (uint i = 0u; i < 3u; ++i) parts[3u * (next + nth) + i] = taken.corners[i];
 #endif
 }
 #endif

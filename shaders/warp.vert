@@ -11,7 +11,7 @@ layout(std430, binding = 3) readonly buffer Normals { uint normals[]; };
 layout(std430, binding = 4) readonly buffer Uvs { vec2 uvs[]; };
 layout(std430, binding = 5) readonly buffer Commands { DrawCommand commands[]; };
 layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };  // triangle and facing, turn of the map and whether divided
-layout(std430, binding = 8) readonly buffer Parts { vec2 parts[]; };       // three corners of each that is divided
+layout(std430, binding = 8) readonly buffer Parts { uvec2 parts[]; };      // three corners of each that is divided
 layout(location = 13) uniform uint command;
 
 layout(location = 0) out vec3 ray;

@@ -3,9 +3,9 @@
 
 #include "screen_position.glsl"
 
-// A part's corners have dyadic weights within the triangle, so that sums of two are exact. Seen from close above, a plane that
-// reaches to the horizon needs that many steps.
-const float WEIGHT_STEPS = 1048576.0;
+// A part's corners have weights within the triangle that are whole numbers of steps, so that halves are exact. Seen from
+// close above, a plane that reaches to the horizon needs that many: what lies straight below takes so small a share of it.
+const uint WEIGHT_STEPS = 1u << 31;
 const uint IS_DIVIDED = 0x40000000u;  // a part that is not the whole triangle, beside its turn of the map
 const int TURN_BIAS = 8;
 // Of an edge by the tessellator. A part with one long and one short edge gets as many triangles as one with three long
@@ -52,7 +52,9 @@ vec3 pointWithin(vec3 a, vec3 b, vec3 c, vec3 at) {
 }
 
 // The weights of a part's corner, of which two are kept.
-vec3 weightsOf(vec2 corner) { return vec3(corner, 1.0 - corner.x - corner.y); }
+vec3 weightsOf(uvec2 corner) {
+    return vec3(uvec3(corner, WEIGHT_STEPS - corner.x - corner.y)) * (1.0 / float(WEIGHT_STEPS));
+}
 
 // How long the edges of a part may be on the screen.
 float longestEdgePx() { return clamp(SMALL_PART_PX, FEW_DIVISIONS * finish.y, MOST_DIVISIONS * finish.y); }

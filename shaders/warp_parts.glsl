@@ -53,7 +53,11 @@ struct Part {
     vec3 a, b, c;
     vec2 pxA, pxB, pxC, pxAb, pxBc, pxCa;
 };
-mat3x2 partCorners;  // of the part that is taken
+
+struct PartCorners {
+    uvec2 corners[3];  // of a part, for weightsOf()
+};
+PartCorners taken;  // of the part that is taken
 
 bool isPartBesideDisplay(Part p) {
     vec3 a = normalize(p.a), b = normalize(p.b), c = normalize(p.c);
@@ -89,6 +93,14 @@ ScreenBox boxOf(Part p) {
     return ScreenBox(p.pxA + least - bulge, p.pxA + most + bulge, isTorn);
 }
 
+// Whether a part shows no more than a hair around a pole that is the picture's border: to meet there, parts would have no end.
+bool isAtPole(Part p) {
+    const float HAIR_PX = 1.0 / 64.0;
+    vec2 least = min(min(p.pxA, p.pxB), p.pxC), most = max(max(p.pxA, p.pxB), p.pxC);
+    return (size.z > 0.0 && (most.y < HAIR_PX || least.y > size.y - HAIR_PX)) ||
+           (size.w > 0.0 && (most.x < HAIR_PX || least.x > size.x - HAIR_PX));
+}
+
 // How often, and from where on, the map repeats within the display along an axis; none: it does not.
 ivec2 turnsWithin(float least, float most, float extentPx, float turnPx) {
     if (turnPx == 0.0) return most < 0.0 || least > extentPx ? ivec2(0) : ivec2(0, 1);
@@ -108,26 +120,41 @@ ivec2 turnsOf(ScreenBox box) {
     return size.w > 0.0 ? down : across;
 }
 
-bool areBetween(vec2 a, vec2 b) { return fract(0.5 * (a + b) * WEIGHT_STEPS) == vec2(0.0); }
+// Of the edges that have to be divided, the largest is, which halves a part as seen from the eye. But those to far away
+// count more than those nearby: an edge from near the eye to far away would use up the weights with its many halves.
+float sizeOfEdge(vec3 a, vec3 b) {
+    vec3 seen = normalize(a) - normalize(b);
+    return distance(a, b) * dot(seen, seen);
+}
+
+// Whether an edge can be halved, and is long enough for it.
+bool hasMiddle(uvec2 weightsA, uvec2 weightsB, vec3 a, vec3 b, float finest) {
+    return ((weightsA + weightsB) & 1u) == uvec2(0u) && distance(a, b) > finest;
+}
 
 // Takes the parts of the triangle, `most` of them, and counts them. `begin` and `end` are those of a piece tree.
 uint walk(RayTriangle t, uint begin, uint end, uint most) {
-    const mat3x2 WHOLE = mat3x2(1.0, 0.0, 0.0, 1.0, 0.0, 0.0);
-    const int MOST_OPEN = 64;  // each division leaves one for later, and halves an edge
+    const PartCorners WHOLE = PartCorners(uvec2[](uvec2(WEIGHT_STEPS, 0u), uvec2(0u, WEIGHT_STEPS), uvec2(0u)));
+    const int MOST_OPEN = 96;  // each division leaves one for later, and halves an edge
     const int MOST_STEPS = 60000;
-    mat3x2 open[MOST_OPEN];
+    PartCorners open[MOST_OPEN];
     open[0] = WHOLE;
     int openCount = 1;
+    // Points are sums of the triangle's corners with their roundings, and edges not much longer than those turn any way. At
+    // the pole of a map that repeats nothing so small is left (see isAtPole); straight behind a round one it would be seen
+    // all along the rim.
+    float furthest = max(max(length(t.a), length(t.b)), length(t.c));
+    float finest = ldexp(furthest, size.z > 0.0 || size.w > 0.0 ? -23 : -20);
     uint count = 0u;
     ivec2 turns = ivec2(0);  // of the part in hand: the next that is taken, and how many are left
     // One loop, for llvmpipe (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together.
     for (int step = 0; step < MOST_STEPS && (openCount > 0 || turns.y > 0) && count < most; ++step) {
         if (turns.y > 0) {
-            take(uint(turns.x + TURN_BIAS) | (partCorners == WHOLE ? 0u : IS_DIVIDED), count++);
+            take(uint(turns.x + TURN_BIAS) | (taken == WHOLE ? 0u : IS_DIVIDED), count++);
             turns += ivec2(1, -1);
             continue;
         }
-        mat3x2 part = open[--openCount];
+        uvec2 part[3] = open[--openCount].corners;
         Part p;
         p.a = pointWithin(t.a, t.b, t.c, weightsOf(part[0]));
         p.b = pointWithin(t.a, t.b, t.c, weightsOf(part[1]));
@@ -146,30 +173,28 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         p.pxCa = pixelsOf(pointBetween(p.c, p.a, 1.0, 1.0));
         ScreenBox box = boxOf(p);
         if (isAround(torn[0], p, t.facing) || isAround(torn[1], p, t.facing)) box.isTorn = true;
-        if (!isWide && !box.isTorn && turnsOf(box).y == 0) continue;
+        if (isAtPole(p) || (!isWide && !box.isTorn && turnsOf(box).y == 0)) continue;
         // Around a pole only the distance from it counts.
         if (!isWide && box.isTorn && size.z > 0.0 && (box.most.y < 0.0 || box.least.y > size.y)) continue;
         if (!isWide && box.isTorn && size.w > 0.0 && (box.most.x < 0.0 || box.least.x > size.x)) continue;
 #endif
-        // Of the edges that have to be divided, the longest: then parts have no edges from near the eye to far away, whose
-        // many halves would use up the weights.
-        vec3 lengths = vec3(
-            areBetween(part[0], part[1]) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? distance(p.a, p.b) : 0.0,
-            areBetween(part[1], part[2]) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? distance(p.b, p.c) : 0.0,
-            areBetween(part[2], part[0]) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? distance(p.c, p.a) : 0.0);
-        float longest = max(max(lengths.x, lengths.y), lengths.z);
-        if (longest == 0.0 || openCount + 2 > MOST_OPEN) {
-            partCorners = part;
+        vec3 sizes = vec3(
+            hasMiddle(part[0], part[1], p.a, p.b, finest) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? sizeOfEdge(p.a, p.b) : 0.0,
+            hasMiddle(part[1], part[2], p.b, p.c, finest) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? sizeOfEdge(p.b, p.c) : 0.0,
+            hasMiddle(part[2], part[0], p.c, p.a, finest) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? sizeOfEdge(p.c, p.a) : 0.0);
+        float largest = max(max(sizes.x, sizes.y), sizes.z);
+        if (largest == 0.0 || openCount + 2 > MOST_OPEN) {
+            taken.corners = part;
             // What still turns far is too small to be divided, and would be seen far from where it is.
             bool isDrawn = !isWide && !box.isTorn && !turnsFar(p.a, p.b) && !turnsFar(p.b, p.c) && !turnsFar(p.c, p.a);
             if (isDrawn) turns = turnsOf(box);
             continue;
         }
-        int from = longest == lengths.x ? 0 : longest == lengths.y ? 1 : 2, to = (from + 1) % 3;
-        vec2 middle = 0.5 * (part[from] + part[to]);
-        mat3x2 first = part, second = part;
-        first[from] = middle;
-        second[to] = middle;
+        int from = largest == sizes.x ? 0 : largest == sizes.y ? 1 : 2, to = (from + 1) % 3;
+        uvec2 middle = (part[from] + part[to]) >> 1u;
+        PartCorners first = PartCorners(part), second = first;
+        first.corners[from] = middle;
+        second.corners[to] = middle;
         open[openCount++] = first;
         open[openCount++] = second;
     }
