@@ -89,7 +89,7 @@ uint visit(uint node, RayTriangle t, uint begin, inout uint count) {
 
 // Takes the pieces that the triangle touches among the nodes from begin up to end, `most` of them, and counts them. It starts
 // at the root: the planes about several pieces leave out a little more than those about each. Four nodes a round, for llvmpipe
-// (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together: see kMostWalkedNodes.
+// (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together.
 uint walk(RayTriangle t, uint begin, uint end, uint most) {
     uint count = 0u;
     for (uint i = 0u; i < end && count < most;) {

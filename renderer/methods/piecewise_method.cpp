@@ -7,6 +7,7 @@
 #include "renderer/names.h"
 
 #include <chrono>
+#include <string_view>
 
 namespace curvewall {
 namespace {
@@ -20,6 +21,19 @@ void refuseEndlessLoop(const RenderRequest& request, const GpuPieces& pieces, co
         throw UsageError("the loop engine would draw " + std::to_string(drawn) +
                          " triangles a frame, more than " + std::to_string(kMostLoopTriangles) +
                          "; take another engine or a larger tolerance");
+}
+
+// llvmpipe ends all loops of a shader once they have gone round 65,535 times together. The walk over the
+// pieces takes four nodes a round; what it did not reach would stay open without a word.
+void refuseUnfinishedWalk(const RenderRequest& request, const GpuPieces& pieces) {
+    constexpr uint32_t kMostRounds = 65'000;
+    const std::string_view driver(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    if (request.engine != Engine::loop && pieces.nodeCount / 4 > kMostRounds &&
+        driver.find("llvmpipe") != std::string_view::npos)
+        throw UsageError(
+            "the display takes " + std::to_string(pieces.pieceCount) +
+            " pieces, more than this software renderer can look through; take a larger tolerance, "
+            "or image-based");
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point time) {
@@ -95,6 +109,7 @@ RenderResult PiecewiseMethod::render(const RenderRequest& request, const Display
     const auto kept = resources_.sampledTarget(display.sizePx, blended.pictureFormat(), samples);
     const SampledTarget& target = *kept;
     refuseEndlessLoop(request, prepared->gpu, target);
+    refuseUnfinishedWalk(request, prepared->gpu);
     const auto drawn = preparedDraw(request, scene, prepared, target, samples);
     drawn->renderer.timeStages(request.timesStages);
     stats.prepareMs = preparing.ms();

@@ -12,7 +12,7 @@ namespace curvewall {
 struct KnownLimit {
     std::string family;
     std::string methods;  // how their names begin
-    double from = 0;      // the first of the family's values at which any display up to 1024 px breaks
+    double from = 0;      // the first of the family's values that breaks, at 100 px or at 500
     std::string why;
     bool isSeenSmall = true;  // on displays of about 100 px too
 };
