@@ -9,15 +9,17 @@
 #include "cli/wall_option.h"
 #include "renderer/names.h"
 #include "renderer/scene/load_scene.h"
+#include "report/document.h"
 #include "report/measurement.h"
+#include "report/speed_document.h"
 #include "report/speed_report_json.h"
+#include "report/text_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -33,10 +35,13 @@ struct ReportCommand {
     bool isQuick = false;
 };
 
-void writeText(const std::string& path, const std::string& text) {
-    std::ofstream file(path);
-    file << text;
-    if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+// report.html, report.md and report.json, with the plots beside them.
+void writeReport(const std::string& folder, const Document& document, const nlohmann::json& json) {
+    writePlots(document, folder);
+    writeTextFile(folder + "/report.html", htmlOf(document, folder));
+    writeTextFile(folder + "/report.md", markdownOf(document));
+    writeTextFile(folder + "/report.json", json.dump(2) + "\n");
+    fmt::print("{0}/report.html, {0}/report.md, {0}/report.json\n", folder);
 }
 
 std::vector<View> viewsOf(const ReportCommand& command) {
@@ -73,6 +78,7 @@ void reportSpeed(const ReportCommand& command) {
     if (command.scenes.empty()) throw UsageError("report needs a --scene");
     MeasurementPlan plan;
     plan.views = viewsOf(command);
+    plan.tolerancePx = command.tolerancePx;
     plan.extent = command.isQuick ? Extent::quick : Extent::full;
     plan.rounds = command.rounds;
     plan.frames = command.frames;
@@ -85,8 +91,7 @@ void reportSpeed(const ReportCommand& command) {
             bar.show(progress.done, progress.all, progress.leftMs, progress.doing);
         });
     }
-    report.tolerancePx = command.tolerancePx;
-    writeText(command.out + "/report.json", nlohmann::json(report).dump(2) + "\n");
+    writeReport(command.out, speedDocument(report), report);
 }
 
 void run(const ReportCommand& command) {

@@ -112,7 +112,7 @@ public:
     ViewReport finish() {
         for (size_t i = 0; i < settings_.size(); ++i)
             if (!rounds_[i].empty()) report_.settings[i].frameMs = spreadOf(rounds_[i]);
-        cropPictures(report_, truth_->pictures, plan_.folder);
+        cropPictures(report_, truth_->pictures, plan_.folder, key_.substr(0, kShortKey));
         return std::move(report_);
     }
 
@@ -185,7 +185,7 @@ private:
             result.stats = toJson(drawn.stats);
             result.stats.erase("frame_ms");  // that of the rounds counts
             if (settings_[i].isShown)
-                writePictures(result, drawn, display_, plan_.folder,
+                writePictures(result, drawn, display_, view_.request.tolerancePx, plan_.folder,
                               fmt::format("{}-{}", key_.substr(0, kShortKey), keyOfErrors(i)));
         } catch (const UsageError& refused) {
             result.refusal = refused.what();
@@ -248,6 +248,7 @@ SpeedReport measureSpeed(const MeasurementPlan& plan,
                          const std::function<void(const MeasurementProgress&)>& advance) {
     SpeedReport report;
     report.processor = processorName();
+    report.tolerancePx = plan.tolerancePx;
     StepClock clock;
     // Pictures and pieces of one view at a time are in memory.
     std::vector<std::vector<StepKind>> kinds;
@@ -273,6 +274,9 @@ SpeedReport measureSpeed(const MeasurementPlan& plan,
             ++progress.done;
         }
         report.views.push_back(measurement.finish());
+        for (const SettingResult& result : report.views.back().settings)
+            if (report.glRenderer.empty() && result.refusal.empty())
+                report.glRenderer = result.stats.value("gl_renderer", "");
     }
     return report;
 }

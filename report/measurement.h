@@ -19,6 +19,7 @@ struct View {
 
 struct MeasurementPlan {
     std::vector<View> views;
+    double tolerancePx = kDefaultTolerancePx;  // that the walls are to keep
     Extent extent = Extent::full;
     int rounds = 3;          // of timing, one after the other over all settings
     int frames = 3;          // of a round, as RenderRequest::frames

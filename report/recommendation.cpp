@@ -24,9 +24,7 @@ const SettingResult* fastest(const std::vector<const SettingResult*>& results, d
 }  // namespace
 
 uint64_t faultyPixels(const SettingResult& result) {
-    const MethodErrors& errors = result.errors;
-    return errors.misplacedPixels + errors.coverage.total() + errors.nanTexels + result.room.uncoveredPixels +
-           result.room.twiceCoveredPixels;
+    return coverageFaults(result) + result.errors.misplacedPixels + result.errors.nanTexels;
 }
 
 bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {

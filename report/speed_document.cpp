@@ -43,14 +43,18 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
          "Beside it stands what 99 pixels in 100 keep.",
          "Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
          "truth, "
-         "one exact ray through the centre of each pixel. With flat colours only edges can be wrong. PSNR "
-         "and "
-         "SSIM compare the same pictures as they are.",
-         "Coverage error: pixels that show nothing where there is something, something where there is "
-         "nothing, "
-         "or one thing twice. Also looked for in a closed room, where every pixel shows one wall. Faulty "
-         "pixels are all of these, misplaced ones and those without a "
-         "number.",
+         "one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. Of "
+         "several "
+         "samples a pixel the supersampled picture is the truth.",
+         "Wrong edges: the same with every surface in one flat colour. Nothing can be wrong there but where "
+         "things "
+         "are; textures and their filters are left out.",
+         "Coverage error: pixels that show nothing where the truth has something all around, or something "
+         "where it "
+         "has nothing; and in a closed room around the eye, pixels that show nothing, or the room twice. "
+         "With "
+         "pixels that show what is not on the display, and those without a number, these are the faulty "
+         "pixels.",
          "Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
          "textures "
          "in another way than traced rays. No method can be expected to come below.",
@@ -65,13 +69,13 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
 }
 
 Table floorTable(const ViewReport& view) {
-    Table table{{"samples", "wrong pixels, %", "wrong, flat colours, %", "PSNR, dB",
+    Table table{{"samples", "wrong pixels, %", "wrong edges, %", "PSNR, dB",
                  fmt::format("PSNR of {} rays, dB", view.truth.supersamples)},
                 {}};
     for (const SamplingFloor& floor : view.floors)
         table.rows.push_back({std::to_string(floor.samples), percentText(floor.shareOff),
-                              percentText(floor.edgesOff), decibelText(floor.psnrDb),
-                              decibelText(floor.supersampledPsnrDb)});
+                              floor.samples == 1 ? percentText(floor.edgesOff) : "–",
+                              decibelText(floor.psnrDb), decibelText(floor.supersampledPsnrDb)});
     return table;
 }
 
@@ -85,7 +89,7 @@ void addOrders(std::vector<Block>& blocks, const ViewReport& view) {
     blocks.emplace_back(Heading{3, "How errors fall"});
     blocks.emplace_back(Paragraph{
         "An error of order 2 falls to a quarter when the knob is turned to half; of order -1 it doubles. "
-        "Fitted to the points above the floor. Of wrong pixels the floor is taken off first."});
+        "Fitted to the points above the floor. Of wrong edges the floor is taken off first."});
     blocks.emplace_back(table);
 }
 

@@ -19,7 +19,7 @@ using Measure = std::function<double(const SettingResult&)>;
 
 double geometricPx(const SettingResult& result) { return result.errors.geometric.maxPx; }
 double wrongPercent(const SettingResult& result) { return 100 * result.errors.image.shareOff; }
-// Of several samples nothing is known in flat colours, and no logarithm shows 0.
+// Of several samples a pixel there is no such number, and the curve has no such point.
 double wrongEdgesPercent(const SettingResult& result) {
     return result.edges ? 100 * result.edges->shareOff : 0;
 }
@@ -94,8 +94,6 @@ std::string viewTitle(const ViewReport& view) {
     return fmt::format("{}, {}, {}", view.wall, view.display, view.scene);
 }
 
-bool hasNoPoints(const Plot& plot) { return plot.front.empty(); }
-
 PlotFigure figureOf(const ViewReport& view, Plot plot, const Measure& measure, const std::string& unit) {
     plot.curves = curvesOf(view, measure, unit);
     std::vector<glm::dvec2> points = allPoints(plot.curves);
@@ -119,7 +117,7 @@ std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, c
     wrong.yLabel = "wrong pixels, %";
     wrong.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.shareOff; });
     Plot edges;
-    edges.yLabel = "wrong pixels in flat colours, %";
+    edges.yLabel = "wrong edges, %";
     edges.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.edgesOff; });
     Plot psnr;
     psnr.yLabel = fmt::format("PSNR against {} rays a pixel, dB", view.truth.supersamples);
@@ -128,18 +126,19 @@ std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, c
     psnr.levels = floorLevels(view, [](const SamplingFloor& floor) { return floor.supersampledPsnrDb; });
 
     std::vector<PlotFigure> figures{
-        figureOf(view, geometric, geometricPx, "px"), figureOf(view, wrong, wrongPercent, "% wrong"),
-        figureOf(view, edges, wrongEdgesPercent, "% wrong"), figureOf(view, psnr, supersampledDb, "dB")};
+        figureOf(view, geometric, geometricPx, "px"), figureOf(view, edges, wrongEdgesPercent, "% wrong"),
+        figureOf(view, wrong, wrongPercent, "% wrong"), figureOf(view, psnr, supersampledDb, "dB")};
     figures[0].picture = {stem + "-geometric.png",
                           "Time against the largest geometric error. Lower left is better."};
-    figures[1].picture = {stem + "-wrong-pixels.png",
+    figures[1].picture = {stem + "-wrong-edges.png",
+                          "Time against the share of wrong edges: what is shown at the wrong place, whatever "
+                          "filters textures. Lower left is better."};
+    figures[2].picture = {stem + "-wrong-pixels.png",
                           "Time against the share of wrong pixels. Lower left is better."};
-    figures[2].picture = {stem + "-wrong-edges.png",
-                          "The same in flat colours, where only edges can be wrong."};
     figures[3].picture = {
         stem + "-supersampled.png",
         "Time against likeness to the supersampled truth. Upper left is better; blur counts as likeness."};
-    std::erase_if(figures, [](const PlotFigure& figure) { return hasNoPoints(figure.plot); });
+    std::erase_if(figures, [](const PlotFigure& figure) { return figure.plot.front.empty(); });
     return figures;
 }
 

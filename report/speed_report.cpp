@@ -11,4 +11,9 @@ std::string SettingName::text() const {
     return fmt::format("{}, {:g} px", text, value);
 }
 
+uint64_t coverageFaults(const SettingResult& result) {
+    return result.errors.coverage.uncoveredPixels + result.errors.coverage.overdrawnPixels +
+           result.room.uncoveredPixels + result.room.twiceCoveredPixels;
+}
+
 }  // namespace curvewall

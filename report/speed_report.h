@@ -50,6 +50,10 @@ struct SettingResult {
     std::string picture, crop, errorMap;
 };
 
+// Pixels that are not covered as they should be: in the scene those that show nothing for something or
+// something for nothing, in the closed room those that show nothing or the room twice.
+uint64_t coverageFaults(const SettingResult& result);
+
 // A curve's error against its knob: error ~ knob^order, by least squares over what lies above the floor.
 struct ErrorOrder {
     std::string curve, error;

@@ -11,10 +11,10 @@ namespace curvewall {
 // Writes the whole picture and the map of its geometric error into `folder`/pictures, in files that begin
 // with `stem`, and names them in the result.
 void writePictures(SettingResult& result, const DrawnOutputs& drawn, const Display& display,
-                   const std::string& folder, const std::string& stem);
+                   double tolerancePx, const std::string& folder, const std::string& stem);
 
 // Finds the place where the pictures written differ most from the truth, and cuts it out of each and of the
-// truth, enlarged.
-void cropPictures(ViewReport& view, const Truth& truth, const std::string& folder);
+// truth, enlarged, into the same folder.
+void cropPictures(ViewReport& view, const Truth& truth, const std::string& folder, const std::string& stem);
 
 }  // namespace curvewall
