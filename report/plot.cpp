@@ -16,9 +16,9 @@
 namespace curvewall {
 namespace {
 
-// As on a phone held upright, whose page is about 360 px wide: letters of 16 of 560 are 10 px there.
-constexpr int kLayoutWidthPx = 560;
-constexpr int kLayoutHeightPx = 430;  // without the legend
+// As on a phone held upright, whose page is about 360 px wide: letters of 16 of 500 are 11 px there.
+constexpr int kLayoutWidthPx = 500;
+constexpr int kLayoutHeightPx = 440;  // without the legend
 constexpr int kFontPx = 16;
 constexpr int kLegendRowPx = 22;
 constexpr int kLegendMarkPx = 62;
@@ -107,9 +107,10 @@ void writeLevels(std::ostream& out, const Plot& plot) {
             "set arrow from graph 0, first {} to graph 1, first {} nohead back dashtype 2 "
             "linecolor rgb '#808080'\n",
             level.y, level.y);
-        // On the left, where fast settings would be if they were good.
-        out << fmt::format("set label {} at graph 0.015, first {} left offset 0,{} textcolor rgb '#707070'\n",
-                           gnuplotQuoted(level.name), level.y, plot.moreIsBetterY ? 0.6 : -0.6);
+        // On the right and on the side of what is better, where slow settings would be if they were good.
+        out << fmt::format(
+            "set label {} at graph 0.985, first {} right offset 0,{} textcolor rgb '#707070'\n",
+            gnuplotQuoted(level.name), level.y, plot.moreIsBetterY ? 0.6 : -0.6);
     }
 }
 
