@@ -40,7 +40,9 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
     blocks.emplace_back(List{
         {"Geometric error: how many pixels away from its place a thing is shown. The largest of all pixels "
          "counts. "
-         "Beside it stands what 99 pixels in 100 keep.",
+         "Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn, in floats, which "
+         "may add a "
+         "thousandth of a pixel.",
          "Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
          "truth, "
          "one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. Of "
@@ -61,7 +63,9 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
          truthText(report),
          "Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. Reading "
          "back and writing files are not in it.",
-         "Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error."}});
+         "Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; the "
+         "reference, "
+         "which the others are judged by, takes no part."}});
     blocks.emplace_back(Paragraph{fmt::format(
         "Measured with `{}` on {}. Errors are the same everywhere; times are those of this machine.",
         report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,

@@ -18,6 +18,9 @@ constexpr size_t kMostCurves = 10;
 using Measure = std::function<double(const SettingResult&)>;
 
 double geometricPx(const SettingResult& result) { return result.errors.geometric.maxPx; }
+// Below this all there is are the roundings of floats.
+constexpr double kLeastShownPx = 0.001;
+double shownGeometricPx(const SettingResult& result) { return std::max(geometricPx(result), kLeastShownPx); }
 double wrongPercent(const SettingResult& result) { return 100 * result.errors.image.shareOff; }
 // Of several samples a pixel there is no such number, and the curve has no such point.
 double wrongEdgesPercent(const SettingResult& result) {
@@ -96,7 +99,9 @@ std::string viewTitle(const ViewReport& view) {
 
 PlotFigure figureOf(const ViewReport& view, Plot plot, const Measure& measure, const std::string& unit) {
     plot.curves = curvesOf(view, measure, unit);
-    std::vector<glm::dvec2> points = allPoints(plot.curves);
+    std::vector<Curve> judged = plot.curves;
+    std::erase_if(judged, [](const Curve& curve) { return methodOf(curve.name) == "reference"; });
+    std::vector<glm::dvec2> points = allPoints(judged);
     // What a logarithmic axis cannot show must not be what shuts everything else out of the front.
     std::erase_if(points, [&](glm::dvec2 p) { return plot.logarithmicY ? !(p.y > 0) : !std::isfinite(p.y); });
     plot.front = paretoFront(points, plot.moreIsBetterY);
@@ -125,11 +130,13 @@ std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, c
     psnr.moreIsBetterY = true;
     psnr.levels = floorLevels(view, [](const SamplingFloor& floor) { return floor.supersampledPsnrDb; });
 
-    std::vector<PlotFigure> figures{
-        figureOf(view, geometric, geometricPx, "px"), figureOf(view, edges, wrongEdgesPercent, "% wrong"),
-        figureOf(view, wrong, wrongPercent, "% wrong"), figureOf(view, psnr, supersampledDb, "dB")};
+    std::vector<PlotFigure> figures{figureOf(view, geometric, shownGeometricPx, "px"),
+                                    figureOf(view, edges, wrongEdgesPercent, "% wrong"),
+                                    figureOf(view, wrong, wrongPercent, "% wrong"),
+                                    figureOf(view, psnr, supersampledDb, "dB")};
     figures[0].picture = {stem + "-geometric.png",
-                          "Time against the largest geometric error. Lower left is better."};
+                          "Time against the largest geometric error. Less than 0.001 px is drawn as 0.001 "
+                          "px. Lower left is better."};
     figures[1].picture = {stem + "-wrong-edges.png",
                           "Time against the share of wrong edges: what is shown at the wrong place, whatever "
                           "filters textures. Lower left is better."};
