@@ -1,6 +1,7 @@
 // curvewall report
 
 #include "calibration/errors.h"
+#include "calibration/stopwatch.h"
 #include "cli/camera_option.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"
@@ -10,6 +11,8 @@
 #include "renderer/names.h"
 #include "renderer/scene/load_scene.h"
 #include "report/document.h"
+#include "report/hard_cases/hard_cases_document.h"
+#include "report/hard_cases/suite.h"
 #include "report/measurement.h"
 #include "report/speed_document.h"
 #include "report/speed_report_json.h"
@@ -25,6 +28,8 @@
 
 namespace curvewall {
 namespace {
+
+constexpr int kQuickSuitePx = 128;
 
 struct ReportCommand {
     std::vector<std::string> walls;
@@ -94,11 +99,32 @@ void reportSpeed(const ReportCommand& command) {
     writeReport(command.out, speedDocument(report), report);
 }
 
+void reportHardCases(const ReportCommand& command) {
+    if (!command.walls.empty() || !command.scenes.empty())
+        throw UsageError("--suite hard-cases brings its own walls and scenes");
+    SuiteOptions options;
+    options.folder = command.out;
+    if (command.isQuick) options.sizePx = kQuickSuitePx;
+    const Stopwatch watch;
+    std::vector<FamilyResult> results;
+    {
+        ProgressBar bar;
+        results = runHardCases(options, [&](const SuiteProgress& progress) {
+                      const auto done = static_cast<double>(progress.finishedCases),
+                                 all = static_cast<double>(progress.allCases);
+                      bar.show(progress.finishedCases, progress.allCases,
+                               done == 0 ? 0 : watch.ms() * (all - done) / done, progress.family);
+                  }).value();
+    }
+    auto json = nlohmann::json::array();
+    for (const FamilyResult& family : results) json.push_back(toJson(family));
+    writeReport(command.out, hardCasesDocument(results), {{"families", json}});
+}
+
 void run(const ReportCommand& command) {
     makeFolder(command.out);
     if (command.suite.empty()) return reportSpeed(command);
-    if (!command.walls.empty() || !command.scenes.empty())
-        throw UsageError("--suite hard-cases brings its own walls and scenes");
+    reportHardCases(command);
 }
 
 }  // namespace
@@ -128,7 +154,8 @@ void addReportCommand(CLI::App& app) {
     report->add_option("--tolerance", command->tolerancePx, "The error that the wall is to keep, pixels")
         ->check(CLI::Validator(checkTolerance, ""))
         ->capture_default_str();
-    report->add_flag("--quick", command->isQuick, "Few settings, and a truth of fewer rays");
+    report->add_flag("--quick", command->isQuick,
+                     "Few settings and a truth of fewer rays; of a suite, small displays");
     report->add_option("--rounds", command->rounds, "How often each setting is timed, in turns")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();

@@ -75,17 +75,31 @@ private:
     std::vector<uint32_t> taken_;
 };
 
+// Of about length one, and otherwise the same bits: meshoptimizer squares lengths in single precision, and
+// leaves out triangles where a square is infinite.
+std::vector<glm::vec3> atUnitScale(std::vector<glm::vec3> positions) {
+    float largest = 0;
+    for (const glm::vec3& p : positions)
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (largest == 0) return positions;
+    const int exponent = std::ilogb(largest);
+    for (glm::vec3& p : positions)
+        p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};
+    return positions;
+}
+
 // The triangles of each cluster in scene order, clusters in the order of their first triangles.
 std::vector<std::vector<uint32_t>> clustersOf(const WeldedTriangles& welded, size_t mostTriangles) {
     const size_t count = welded.corners.size(), mostVertices = std::min(3 * mostTriangles, kMostVertices);
     const size_t bound = meshopt_buildMeshletsBound(count, mostVertices, mostTriangles);
+    const std::vector<glm::vec3> positions = atUnitScale(welded.positions);
     std::vector<meshopt_Meshlet> built(bound);
     std::vector<uint32_t> vertices(bound * mostVertices);
     std::vector<uint8_t> corners(3 * bound * mostTriangles);
     // A weight for cones makes spheres larger, and was not seen to make cones that leave more out.
     built.resize(meshopt_buildMeshlets(built.data(), vertices.data(), corners.data(), welded.corners.data(),
-                                       count, &welded.positions[0].x, welded.positions.size(),
-                                       sizeof(glm::vec3), mostVertices, mostTriangles, 0));
+                                       count, &positions[0].x, positions.size(), sizeof(glm::vec3),
+                                       mostVertices, mostTriangles, 0));
     TriangleLookup lookup(welded.corners);
     std::vector<std::vector<uint32_t>> clusters;
     for (const meshopt_Meshlet& meshlet : built) {

@@ -10,15 +10,6 @@
 namespace curvewall {
 namespace {
 
-std::string keyOfThisProgram() {
-    static const std::string key = [] {
-        std::ifstream file("/proc/self/exe", std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-        return OIIO::SHA1::digest(bytes.data(), bytes.size());
-    }();
-    return key;
-}
-
 template <class T>
 void addAll(ContentKey& key, const std::vector<T>& values) {
     key.add(std::span<const T>(values));
@@ -78,6 +69,15 @@ void addDisplay(ContentKey& key, const Display& display) {
 }  // namespace
 
 void ContentKey::add(std::string_view text) { add(std::span<const char>(text.data(), text.size())); }
+
+std::string keyOfThisProgram() {
+    static const std::string key = [] {
+        std::ifstream file("/proc/self/exe", std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        return OIIO::SHA1::digest(bytes.data(), bytes.size());
+    }();
+    return key;
+}
 
 std::string keyOfView(const RenderRequest& request) {
     ContentKey key;

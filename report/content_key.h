@@ -31,6 +31,9 @@ private:
     OIIO::SHA1 hash_;
 };
 
+// Of the program that runs, as it lies on the disk.
+std::string keyOfThisProgram();
+
 // Of what a frame of the request shows, whatever draws it: the scene's triangles, materials and texels, the
 // rays of all pixels, blend maps, background, camera and style; and of this program, since another version
 // may draw it otherwise.

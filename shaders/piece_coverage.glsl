@@ -79,18 +79,24 @@ bool touches(ConeNode leaf, RayTriangle t) {
 
 void take(uint piece, uint nth);  // what the includer does with the nth piece
 
+// Takes the node's piece, if it has one that the triangle touches, and tells which node comes next.
+uint visit(uint node, RayTriangle t, uint begin, inout uint count) {
+    // Always onwards: the vertices that fill up llvmpipe's last vector read zeros, and would go round for long.
+    if (nodes[node].link.x <= begin || isOutside(nodes[node], t)) return max(nodes[node].link.x, node + 1u);
+    if (nodes[node].link.y != NO_PIECE && touches(nodes[node], t)) take(nodes[node].link.y, count++);
+    return node + 1u;
+}
+
 // Takes the pieces that the triangle touches among the nodes from begin up to end, `most` of them, and counts them. It starts
-// at the root: the planes about several pieces leave out a little more than those about each.
+// at the root: the planes about several pieces leave out a little more than those about each. Four nodes a round, for llvmpipe
+// (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together: see kMostWalkedNodes.
 uint walk(RayTriangle t, uint begin, uint end, uint most) {
     uint count = 0u;
     for (uint i = 0u; i < end && count < most;) {
-        if (nodes[i].link.x <= begin || isOutside(nodes[i], t)) {
-            // Always onwards: the vertices that fill up llvmpipe's last vector read zeros, and would go round for long.
-            i = max(nodes[i].link.x, i + 1u);
-            continue;
-        }
-        if (nodes[i].link.y != NO_PIECE && touches(nodes[i], t)) take(nodes[i].link.y, count++);
-        ++i;
+        i = visit(i, t, begin, count);
+        if (i < end && count < most) i = visit(i, t, begin, count);
+        if (i < end && count < most) i = visit(i, t, begin, count);
+        if (i < end && count < most) i = visit(i, t, begin, count);
     }
     return count;
 }

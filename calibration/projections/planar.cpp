@@ -9,6 +9,9 @@
 
 namespace curvewall {
 
+// In sides of the screen. Matrices in single precision, which draw it, show nothing sensible from nearer.
+constexpr double kLeastEyeDistance = 1e-6;
+
 PlanarProjection::PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, glm::ivec2 sizePx)
     : screen_(screen), sizePx_(sizePx) {
     const glm::dvec3 right = screen.lowerRightM - screen.lowerLeftM;
@@ -18,8 +21,9 @@ PlanarProjection::PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, 
     if (!(area > 1e-12 * glm::length(right) * glm::length(up)))
         throw UsageError("a planar screen needs three corners that span an area");
     const double eyeDistance = std::abs(glm::dot(glm::cross(right, up), corner)) / area;
-    if (!(eyeDistance > 1e-9 * (glm::length(right) + glm::length(up))))
-        throw UsageError("the eye lies in the plane of a planar screen");
+    if (!(eyeDistance > kLeastEyeDistance * (glm::length(right) + glm::length(up))))
+        throw UsageError(
+            "the eye lies in the plane of a planar screen, or nearer to it than a millionth of its sides");
     rayFromPixel_ = {right / static_cast<double>(sizePx.x), -up / static_cast<double>(sizePx.y), corner};
     pixelFromRay_ = glm::inverse(rayFromPixel_);
 }

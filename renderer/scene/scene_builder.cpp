@@ -23,6 +23,13 @@ bool isFinite(const Vector& v) {
     return true;
 }
 
+template <class Vector>
+bool isWithinReach(const Vector& v) {
+    for (glm::length_t i = 0; i < v.length(); ++i)
+        if (!(std::abs(v[i]) <= kFarthestVertexM)) return false;
+    return true;
+}
+
 std::optional<glm::vec3> unitNormal(const glm::dvec3& normal) {
     // Scaled first, so that neither a tiny nor a huge vector is lost when it is squared.
     const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
@@ -43,7 +50,8 @@ glm::dvec3 centreOf(const std::vector<MeshPart>& parts) {
             const glm::dvec3& a = part.positionsM[triangle.x];
             const glm::dvec3& b = part.positionsM[triangle.y];
             const glm::dvec3& c = part.positionsM[triangle.z];
-            if (!unitNormal(glm::cross(b - a, c - a))) continue;
+            if (!unitNormal(glm::cross(b - a, c - a)) || !isWithinReach(b - a) || !isWithinReach(c - a))
+                continue;
             for (const glm::dvec3& p : {a, b, c}) include(p);
         }
         for (const uint32_t point : part.points)
@@ -79,7 +87,7 @@ private:
         const glm::dvec3 corner(a);
         const std::optional<glm::vec3> flat =
             unitNormal(glm::cross(glm::dvec3(b) - corner, glm::dvec3(c) - corner));
-        if (!isFinite(a) || !isFinite(b) || !isFinite(c) || !flat) {
+        if (!isWithinReach(a) || !isWithinReach(b) || !isWithinReach(c) || !flat) {
             ++dropped_;
             return;
         }
@@ -89,7 +97,7 @@ private:
     }
 
     void addPoint(const MeshPart& part, uint32_t point) {
-        if (isFinite(rounded_[point]))
+        if (isWithinReach(rounded_[point]))
             scene_.points.push_back(vertex(part, point, kUnread));
         else
             ++droppedStrokes_;
@@ -97,7 +105,7 @@ private:
 
     void addLine(const MeshPart& part, const glm::uvec2& line) {
         const glm::vec3 a = rounded_[line.x], b = rounded_[line.y];
-        if (isFinite(a) && isFinite(b) && a != b)
+        if (isWithinReach(a) && isWithinReach(b) && a != b)
             scene_.lines.emplace_back(vertex(part, line.x, kUnread), vertex(part, line.y, kUnread));
         else
             ++droppedStrokes_;
@@ -189,11 +197,11 @@ void setGeometry(Scene& scene, const std::vector<MeshPart>& parts) {
     scene.droppedTriangles = writer.dropped();
     if (writer.dropped() > 0)
         scene.notes.push_back("dropped " + counted(writer.dropped(), "triangle", "triangles") +
-                              " with non-finite positions or zero area");
+                              " with positions that are not finite or beyond 1e12 m, or zero area");
     if (writer.droppedStrokes() > 0)
         scene.notes.push_back("dropped " +
                               counted(writer.droppedStrokes(), "point or line", "points or lines") +
-                              " with non-finite positions or zero length");
+                              " with positions that are not finite or beyond 1e12 m, or zero length");
 }
 
 bool isEmpty(const Scene& scene) {

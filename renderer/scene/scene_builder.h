@@ -24,6 +24,10 @@ struct MeshPart {
     size_t primitiveCount() const { return triangles.size() + points.size() + lines.size(); }
 };
 
+// Along each axis from the scene's origin. Facing is the sign of a product of three lengths, which leave
+// single precision from 7e12 m on.
+inline constexpr float kFarthestVertexM = 1e12f;
+
 // Fills the scene's origin and geometry, sorted by material. What cannot be drawn is left out and counted in
 // the notes. Points and lines without normals get an unlit material, as glTF 2.0 demands (section 3.7.2.1).
 void setGeometry(Scene& scene, const std::vector<MeshPart>& parts);

@@ -126,6 +126,18 @@ std::vector<glm::vec3> anyEyes(size_t count, glm::dvec3 middleM, double halfSize
     return eyes;
 }
 
+TEST(Meshlets, HaveEveryTriangleOnceAtAnyScale) {
+    for (const float scale : {1e-30f, 1e-18f, 1.0f, 1e18f, 1e30f, 1e37f}) {
+        test::Random random(3);
+        Scene scene = confetti(1000, random);
+        for (glm::vec3& position : scene.positions) position *= scale;
+        Meshlets cut = cutIntoMeshlets(scene.positions, scene.triangles);
+        std::ranges::sort(cut.order);
+        ASSERT_EQ(cut.order.size(), scene.triangles.size()) << scale;
+        for (size_t i = 0; i < cut.order.size(); ++i) ASSERT_EQ(cut.order[i], i) << scale;
+    }
+}
+
 TEST(Meshlets, HoldEveryTriangleOnceAndEveryVertex) {
     test::Random random(1);
     std::vector<Scene> scenes{loadScene("room"), loadScene("city:5000"), confetti(777, random),

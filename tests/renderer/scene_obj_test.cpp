@@ -104,8 +104,20 @@ TEST(Obj, DropsTrianglesThatCannotBeDrawn) {
     test::expectSound(scene);
     EXPECT_EQ(scene.triangles.size(), 1u);
     EXPECT_EQ(scene.droppedTriangles, 2u);
-    EXPECT_THAT(scene.notes,
-                Contains(HasSubstr("dropped 2 triangles with non-finite positions or zero area")));
+    EXPECT_THAT(
+        scene.notes,
+        Contains(HasSubstr("dropped 2 triangles with positions that are not finite or beyond 1e12 m")));
+}
+
+TEST(Obj, LeavesOutWhatIsBeyondSinglePrecisionAndKeepsTheRestInPlace) {
+    const test::TemporaryFolder folder;
+    const Scene scene = loadScene(folder.write(
+        "a.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e30 0 0\nv 2e30 0 0\nv 2e30 1e30 0\nf 1 2 3\nf 4 5 6\nf 1 2 4\n"));
+    test::expectSound(scene);
+    EXPECT_EQ(scene.droppedTriangles, 2u);
+    EXPECT_EQ(scene.originM, glm::dvec3(0.5, 0.5, 0)) << "what is dropped does not move the origin";
+    EXPECT_THAT(scene.notes, Contains(HasSubstr("beyond 1e12 m")));
 }
 
 TEST(Obj, ReadsPointsAndLines) {

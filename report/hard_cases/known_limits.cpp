@@ -1,0 +1,101 @@
+#include "report/hard_cases/known_limits.h"
+
+#include <algorithm>
+
+namespace curvewall {
+
+const std::vector<KnownLimit>& knownLimits() {
+    static const std::vector<KnownLimit> limits{
+        {"pole crossing", "vertex-warp", 1e-2,
+         "Beside a pole a part of a triangle spans a wide range of azimuths, and its straight edges sweep "
+         "across them: "
+         "up to 5 px, and single pixels open, on displays of some 100 px. On larger ones parts are smaller."},
+        {"around the eye", "piecewise", 1e-3,
+         "Corners are rounded to 1e-7 of their distance. Where the plane of a triangle is nearer to the eye "
+         "than 1/5000 "
+         "of the triangle's size this is 0.4 px, and nearer than 1/50,000 it opens gaps between pieces."},
+        {"around the eye", "", 1e-5,
+         "Half as far as what every method cuts: what it cuts beside it depends on how it measures "
+         "distances."},
+        {"long edges", "", 179.9999,
+         "The corners are 1.6e6 m away, on edges that run past at 1 m: single precision knows them to 0.1 "
+         "m."},
+        {"vertex at the eye", "", 1e-6,
+         "The sides are within a millionth of edge on, where the reference shows a few pixels of them that "
+         "it should "
+         "not, and every method others.",
+         false},
+        {"edge through the eye", "piecewise", 1e-4,
+         "As around the eye: the triangle is 50,000 times as long as its plane is far from the eye."},
+        {"edge through the eye", "", 1e-6,
+         "The plane of the triangle is within a millionth of its corners' distance from the eye: it may show "
+         "or not.",
+         false},
+        {"fan", "vertex-warp", 1e4,
+         "Parts thinner than the rasterizer's grid overlap where edges are divided: up to 1 pixel in 30 is "
+         "covered "
+         "twice, by the same surface."},
+        {"band of slivers", "vertex-warp", 1e5,
+         "Points shown in slivers of 1/1000 px are off by up to 0.7 px; the picture is right."},
+        {"coplanar overlaps", "vertex-warp", 1e-5,
+         "Depths are linear within a part, which is off by the square of its angle: surfaces nearer to one "
+         "another "
+         "than 1e-3 of their distance on displays of 100 px, and 1e-5 on those of 500 px, shine through each "
+         "other."},
+        {"coplanar overlaps", "piecewise", 0,
+         "No order is right in one plane, and each piece rounds otherwise."},
+        {"fields of view, equidistant", "piecewise", 359.9,
+         "The rim is one direction, seen all around: a point beyond it by less than a pixel belongs on the "
+         "other side "
+         "of the picture."},
+        {"fields of view, equidistant", "image-based", 359.9,
+         "The same, and texels there are many pixels wide.", false},
+        {"fields of view, equidistant", "vertex-warp", 359.9,
+         "The picture is torn at its rim, where parts are drawn to both sides."},
+        {"fields of view, stereographic", "vertex-warp", 350,
+         "Parts near straight behind are long: 0.3 px off at 350 degrees on displays of 100 px, and at 359.9 "
+         "most of "
+         "the picture stays open."},
+        {"fields of view, stereographic", "image-based", 359.9,
+         "Faces end at 4096 px, and the display magnifies more than these: a texel is up to 100 px wide."},
+        {"fields of view, curvilinear", "vertex-warp", 179.9,
+         "The corners of the display see all but straight behind, where parts are too long: gaps."},
+        {"fields of view, curvilinear", "image-based", 179.9, "As with stereographic lenses."},
+        {"eye at a curved wall", "vertex-warp", 1e-2, "Parts do not follow the wall beside the eye."},
+        {"eye at a curved wall", "image-based", 1e-2,
+         "Faces end at 4096 px, and the wall beside the eye is magnified more than these."},
+        {"eye at a flat screen", "piecewise", 1e-4,
+         "Single precision knows where a ray lands to 1e-7 of a field of view of "
+         "180 degrees: half a pixel at 1e-5 m."},
+        {"eye at a flat screen", "vertex-warp", 1e-4, "As piecewise."},
+        {"eye at a flat screen", "image-based", 0.1,
+         "Faces end at 4096 px; what is seen beside the axis is magnified more than these."},
+        {"screen edge on", "piecewise", 1e-4, "As with the eye at a flat screen."},
+        {"screen edge on", "vertex-warp", 1e-4, "As with the eye at a flat screen."},
+        {"screen edge on", "image-based", 0.1, "As with the eye at a flat screen."},
+        {"folds of a measured map", "image-based", 1e-2,
+         "Where the map is squeezed, the display magnifies its source without end, and faces are as dense as "
+         "all but "
+         "the densest hundredth of the display."},
+        {"noise in a measured map", "piecewise", 2,
+         "The certificate tells where rays land. Where a noisy map nearly folds, where the ray that is shown "
+         "comes "
+         "from is off by several times that, up to 7 px."},
+        {"noise in a measured map", "vertex-warp", 2, "The picture nearly folds within a part."},
+        {"noise in a measured map", "image-based", 8, "As where a map folds."},
+    };
+    return limits;
+}
+
+const KnownLimit* knownLimitOf(const HardCaseFamily& family, const CaseResult& result) {
+    const auto placeOf = [&](double value) {
+        return std::ranges::find(family.values, value) - family.values.begin();
+    };
+    const auto found = std::ranges::find_if(knownLimits(), [&](const KnownLimit& limit) {
+        return limit.family == family.name && result.method.starts_with(limit.methods) &&
+               placeOf(limit.from) <= placeOf(result.value);
+    });
+    return found == knownLimits().end() ? nullptr : &*found;
+}
+
+}  // namespace curvewall

@@ -1,0 +1,238 @@
+#include "report/hard_cases/suite.h"
+
+#include "calibration/errors.h"
+#include "renderer/gl/egl_context.h"
+#include "renderer/image_file.h"
+#include "report/content_key.h"
+#include "report/hard_cases/wrong_pixels.h"
+#include "report/kept_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <utility>
+
+namespace curvewall {
+namespace {
+
+using nlohmann::json;
+
+std::vector<HardCaseMethod> methodsOf(const SuiteOptions& options) {
+    std::vector<HardCaseMethod> methods = hardCaseMethods();
+    if (!options.methods.empty())
+        std::erase_if(methods, [&](const HardCaseMethod& method) {
+            return std::ranges::find(options.methods, method.name) == options.methods.end();
+        });
+    return methods;
+}
+
+RenderRequest requestFor(const HardCase& tried) {
+    RenderRequest request;
+    request.wall = tried.wall;
+    request.scene = tried.scene;
+    request.camera = tried.camera;
+    request.style = Style::unlit;
+    return request;
+}
+
+struct JudgedTruth {
+    Truth truth;
+    MethodErrors errors;  // of its own
+};
+
+JudgedTruth truthOf(Renderer& renderer, const HardCase& tried) {
+    RenderRequest request = requestFor(tried);
+    request.method = Method::reference;
+    DrawnOutputs drawn = drawOutputs(renderer, request);
+    const Truth same{drawn.color, drawn.position, drawn.coverage, {}};
+    const MethodErrors errors = errorsOf(drawn, same, tried.wall->displays.front());
+    return {{std::move(drawn.color), std::move(drawn.position), std::move(drawn.coverage), {}}, errors};
+}
+
+// What a method has to hold for one case. Positions are told in single precision: where the display itself
+// makes pixels of less than their roundings, as along a fold, the truth is as far off.
+StatedBounds boundsOf(const HardCaseMethod& method, const MethodErrors& truth) {
+    return {method.bounds.maxPx + 1.2 * truth.geometric.maxPx,
+            method.bounds.p99Px + 1.2 * truth.geometric.p99Px};
+}
+
+std::string faultOf(const CaseResult& result, const StatedBounds& bounds, glm::ivec2 sizePx) {
+    const MethodErrors& errors = result.errors;
+    const CoverageError& coverage = errors.coverage;
+    const auto mostWrong = static_cast<uint64_t>(mostWrongPixels(sizePx));
+    if (errors.nanTexels > 0) return fmt::format("{} numbers of its colours are none", errors.nanTexels);
+    if (errors.misplacedPixels > mostWrong)
+        return fmt::format("{} pixels show what the display has no place for", errors.misplacedPixels);
+    if (coverage.uncoveredPixels + result.gapPixels > 0)
+        return fmt::format("{} pixels have gaps", std::max(coverage.uncoveredPixels, result.gapPixels));
+    if (coverage.overdrawnPixels + coverage.twiceCoveredPixels > mostWrong)
+        return fmt::format("{} pixels show what is not there",
+                           coverage.overdrawnPixels + coverage.twiceCoveredPixels);
+    if (errors.geometric.maxPx > bounds.maxPx)
+        return fmt::format("off by {:.3g} px, more than {:.3g}", errors.geometric.maxPx, bounds.maxPx);
+    if (errors.geometric.p99Px > bounds.p99Px)
+        return fmt::format("1 pixel in 100 is off by {:.3g} px, more than {:.3g}", errors.geometric.p99Px,
+                           bounds.p99Px);
+    if (result.wrongPixels > mostWrong)
+        return fmt::format("{} pixels have a colour that is not there", result.wrongPixels);
+    return {};
+}
+
+class FamilyRun {
+public:
+    FamilyRun(Renderer& renderer, const HardCaseFamily& family, const SuiteOptions& options)
+        : renderer_(renderer), family_(family), options_(options), methods_(methodsOf(options)) {
+        result_.family = family.name;
+        result_.sizePx = options.sizePx;
+    }
+
+    void runCase(double value) {
+        try {
+            const HardCase tried = family_.make(value, options_.sizePx);
+            const JudgedTruth judged = truthOf(renderer_, tried);
+            const Frame& position = judged.truth.position;
+            result_.truths.push_back({value, "", checkTruth(position, tried), judged.errors.geometric.maxPx});
+            if (isPictured(value)) addPicture("reference", value, judged.truth.color);
+            for (const HardCaseMethod& method : methods_) draw(value, method, tried, judged);
+        } catch (const UsageError& refusal) {
+            addRefusal(value, refusal.what());
+        } catch (const InputError& refusal) {
+            addRefusal(value, refusal.what());
+        }
+    }
+
+    FamilyResult take() { return std::move(result_); }
+
+private:
+    bool isPictured(double value) const {
+        return !options_.folder.empty() && value == family_.values[family_.pictured];
+    }
+
+    void addRefusal(double value, const std::string& why) {
+        result_.truths.push_back({value, why});
+        for (const HardCaseMethod& method : methods_)
+            result_.results.push_back({value, method.name, Outcome::refused, why});
+    }
+
+    void addPicture(const std::string& method, double value, const Frame& color) {
+        const std::string file = "hard-case-" + stemOf(family_.name + "-" + method) + ".png";
+        writeFrame((std::filesystem::path(options_.folder) / file).string(), color);
+        result_.pictures.push_back(
+            {file, fmt::format("{} at {:g} ({}): {}", family_.name, value, family_.parameter, method)});
+    }
+
+    void draw(double value, const HardCaseMethod& method, const HardCase& tried, const JudgedTruth& judged) {
+        const Truth& truth = judged.truth;
+        CaseResult result{value, method.name};
+        const Display& display = tried.wall->displays.front();
+        try {
+            RenderRequest request = requestFor(tried);
+            method.choose(request);
+            const DrawnOutputs drawn = drawOutputs(renderer_, request);
+            result.errors = errorsOf(drawn, truth, display);
+            const bool isClosed = closesOnItself(display);
+            result.wrongPixels = wrongPixels(drawn.color, truth.color, isClosed);
+            result.gapPixels = gapPixels(drawn.coverage, truth.coverage, isClosed);
+            result.wrongShare = static_cast<double>(result.wrongPixels) /
+                                (static_cast<double>(display.sizePx.x) * display.sizePx.y);
+            result.fault = faultOf(result, boundsOf(method, judged.errors), display.sizePx);
+            if (isPictured(value) && (request.method == Method::piecewise || !result.fault.empty()))
+                addPicture(method.name, value, drawn.color);
+        } catch (const GlUnavailable&) {
+            throw;
+        } catch (const UsageError& refusal) {
+            result.outcome = Outcome::refused;
+            result.reason = refusal.what();
+        } catch (const std::exception& failure) {
+            result.outcome = Outcome::failed;
+            result.reason = failure.what();
+        }
+        result_.results.push_back(std::move(result));
+    }
+
+    Renderer& renderer_;
+    const HardCaseFamily& family_;
+    const SuiteOptions& options_;
+    std::vector<HardCaseMethod> methods_;
+    FamilyResult result_;
+};
+
+// All that a family's results depend on, as far as it can be told.
+json keyOf(const HardCaseFamily& family, const SuiteOptions& options) {
+    json key{{"program", keyOfThisProgram()},
+             {"family", family.name},
+             {"values", family.values},
+             {"size_px", options.sizePx},
+             {"methods", json::array()}};
+    for (const HardCaseMethod& method : methodsOf(options))
+        key["methods"].push_back(
+            {method.name, fmt::format("{:g} {:g}", method.bounds.maxPx, method.bounds.p99Px)});
+    return key;
+}
+
+std::string keptFile(const HardCaseFamily& family, const SuiteOptions& options) {
+    return (std::filesystem::path(options.folder) / ("hard-case-" + stemOf(family.name) + ".json")).string();
+}
+
+// Nothing where the file is another's, of another run or damaged: the family is run again then.
+std::optional<FamilyResult> keptResult(const HardCaseFamily& family, const SuiteOptions& options) {
+    if (options.folder.empty()) return std::nullopt;
+    const std::optional<json> kept = keptJson(keptFile(family, options));
+    try {
+        if (!kept || kept->at("key") != keyOf(family, options)) return std::nullopt;
+        FamilyResult result = familyResultFromJson(kept->at("result"));
+        for (const CasePicture& picture : result.pictures)
+            if (!std::filesystem::exists(std::filesystem::path(options.folder) / picture.file))
+                return std::nullopt;
+        return result;
+    } catch (const json::exception&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::optional<FamilyResult> runFamily(Renderer& renderer, const HardCaseFamily& family,
+                                      const SuiteOptions& options, const OnSuiteProgress& onProgress,
+                                      const std::stop_token& stop) {
+    if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
+    FamilyRun run(renderer, family, options);
+    for (size_t i = 0; i < family.values.size(); ++i) {
+        if (stop.stop_requested()) return std::nullopt;
+        if (onProgress) onProgress({family.name, family.values[i], i, family.values.size()});
+        run.runCase(family.values[i]);
+    }
+    return run.take();
+}
+
+std::optional<std::vector<FamilyResult>> runHardCases(const SuiteOptions& options,
+                                                      const OnSuiteProgress& onProgress,
+                                                      const std::stop_token& stop) {
+    const std::vector<HardCaseFamily> families = hardCaseFamilies();
+    size_t finished = 0, all = 0;
+    for (const HardCaseFamily& family : families) all += family.values.size();
+    std::vector<FamilyResult> results;
+    for (const HardCaseFamily& family : families) {
+        std::optional<FamilyResult> result = keptResult(family, options);
+        if (!result) {
+            // It keeps what belongs to scenes and displays, and each case has others.
+            Renderer renderer(1);
+            const auto onCase = [&](const SuiteProgress& progress) {
+                if (onProgress)
+                    onProgress({progress.family, progress.value, finished + progress.finishedCases, all});
+            };
+            result = runFamily(renderer, family, options, onCase, stop);
+            if (!result) return std::nullopt;
+            if (!options.folder.empty())
+                keepJson(keptFile(family, options),
+                         {{"key", keyOf(family, options)}, {"result", toJson(*result)}});
+        }
+        finished += family.values.size();
+        results.push_back(std::move(*result));
+    }
+    return results;
+}
+
+}  // namespace curvewall
