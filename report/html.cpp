@@ -137,7 +137,7 @@ public:
     }
 
 private:
-    static bool isBlank(const std::string& cell) { return cell.empty() || cell == "–"; }
+    static bool isBlank(const std::string& cell) { return cell.empty() || cell == "–" || cell == "∞"; }
 
     static bool isNumeric(const Table& table, size_t column) {
         const auto is = [column](bool (*test)(const std::string&)) {
