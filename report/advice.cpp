@@ -28,8 +28,7 @@ std::string useText(const SettingResult& best) {
     std::string text = fmt::format("Use {}: {}{} a frame, at most {} off.", settingText(best.setting),
                                    withMade(best), timeText(best), pixelsText(best.errors.geometric.maxPx));
     if (const uint64_t faults = faultyPixels(best); faults > 0)
-        text += fmt::format(" {} {} covered wrongly.", countText(faults),
-                            faults == 1 ? "pixel is" : "pixels are");
+        text += fmt::format(" {} faulty {}.", countText(faults), faults == 1 ? "pixel" : "pixels");
     return text;
 }
 
@@ -72,8 +71,7 @@ std::string missText(const SettingResult& result) {
     std::string text = fmt::format("{} comes to {} in {}", settingText(result.setting),
                                    pixelsText(result.errors.geometric.maxPx), timeText(result));
     if (const uint64_t faults = faultyPixels(result); faults > 0)
-        text +=
-            fmt::format(", with {} {} covered wrongly", countText(faults), faults == 1 ? "pixel" : "pixels");
+        text += fmt::format(", with {} faulty {}", countText(faults), faults == 1 ? "pixel" : "pixels");
     return text;
 }
 
@@ -130,7 +128,7 @@ Table summaryTable(const SpeedReport& report) {
         if (answer.best && !answer.others.empty()) {
             row.push_back(settingText(answer.others[0]->setting));
             row.push_back(
-                fmt::format("{:.2g}", answer.others[0]->frameMs.median / answer.best->frameMs.median));
+                fmt::format("{:.1f}", answer.others[0]->frameMs.median / answer.best->frameMs.median));
         } else {
             row.insert(row.end(), {"–", "–"});
         }

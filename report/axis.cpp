@@ -25,7 +25,8 @@ std::vector<double> evenNumbers(double least, double most) {
     for (const double factor : {2.0, 5.0})
         if (factor * power <= largest) step = factor * power;
     std::vector<double> numbers;
-    for (double k = std::ceil(least / step); k * step <= most; ++k) numbers.push_back(k * step);
+    // Adding 0 makes +0 of -0, which would be written so.
+    for (double k = std::ceil(least / step); k * step <= most; ++k) numbers.push_back(k * step + 0.0);
     return numbers;
 }
 

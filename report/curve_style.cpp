@@ -40,12 +40,14 @@ struct NamedStyle {
 // The longest that fits counts.
 constexpr std::array kNamedStyles{
     NamedStyle{"piecewise", kBlue, circle},
-    NamedStyle{"piecewise, geometry", kSkyBlue, openCircle},
-    NamedStyle{"piecewise, tessellation", kSkyBlue, openDiamond},
-    NamedStyle{"piecewise, loop", kSkyBlue, openPentagon},
+    NamedStyle{"piecewise, geometry engine", kSkyBlue, openCircle},
+    NamedStyle{"piecewise, tessellation engine", kSkyBlue, openDiamond},
+    NamedStyle{"piecewise, loop engine", kSkyBlue, openPentagon},
     NamedStyle{"image-based", kVermilion, square},
     NamedStyle{"image-based, cube, nearest", kVermilion, diamond},
     NamedStyle{"image-based, cube, bicubic", kVermilion, openSquare},
+    NamedStyle{"image-based, cube, mipmap", kOrange, diamond},
+    NamedStyle{"image-based, cube, anisotropic", kOrange, openDiamond},
     NamedStyle{"image-based, planar", kOrange, triangle},
     NamedStyle{"image-based, planar, bicubic", kOrange, openTriangle},
     NamedStyle{"image-based, hemicube", kOrange, pentagon},

@@ -43,22 +43,21 @@ std::optional<double> aboveGeometricFloor(double errorPx) {
     return errorPx;
 }
 
+// Of pictures in flat colours: how textures are filtered has no order in any knob.
 std::vector<NamedError> errorsOf(const ViewReport& view) {
-    // In flat colours where it was looked at: what filters textures is no matter of projection.
-    const auto share = [&view](const SettingResult& result) -> std::optional<double> {
+    const auto edges = [&view](const SettingResult& result) -> std::optional<double> {
+        if (!result.edges) return std::nullopt;
         const auto floor = std::ranges::find(view.floors, result.setting.samples, &SamplingFloor::samples);
-        const SamplingFloor none, &least = floor == view.floors.end() ? none : *floor;
-        const double leastOff = result.edges ? least.edgesOff : least.shareOff;
-        const double above =
-            (result.edges ? result.edges->shareOff : result.errors.image.shareOff) - leastOff;
-        if (!(above > std::max(kClearlyAbove * leastOff, kFewPixels))) return std::nullopt;
+        const double least = floor == view.floors.end() ? 0 : floor->edgesOff;
+        const double above = result.edges->shareOff - least;
+        if (!(above > std::max(kClearlyAbove * least, kFewPixels))) return std::nullopt;
         return above;
     };
     return {{"geometric, largest",
              [](const SettingResult& r) { return aboveGeometricFloor(r.errors.geometric.maxPx); }},
             {"geometric, 99 in 100",
              [](const SettingResult& r) { return aboveGeometricFloor(r.errors.geometric.p99Px); }},
-            {"wrong pixels", share}};
+            {"wrong edges", edges}};
 }
 
 // Of y over x, by least squares; the x are not all the same.

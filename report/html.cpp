@@ -97,12 +97,7 @@ public:
         pugi::xml_node node = append(box, "table");
         pugi::xml_node head = append(append(node, "thead"), "tr");
         for (size_t i = 0; i < table.columns.size(); ++i) {
-            const bool isNumeric =
-                !table.rows.empty() && i < table.rows[0].size() &&
-                std::ranges::any_of(table.rows, [&](const auto& row) { return isNumber(row[i]); }) &&
-                std::ranges::all_of(table.rows,
-                                    [&](const auto& row) { return isNumber(row[i]) || isBlank(row[i]); });
-            pugi::xml_node cell = append(head, "th", isNumeric ? "number" : nullptr);
+            pugi::xml_node cell = append(head, "th", isNumeric(table, i) ? "number" : nullptr);
             cell.append_attribute("scope") = "col";
             appendText(cell, table.columns[i]);
         }
@@ -110,7 +105,8 @@ public:
         for (size_t i = 0; i < table.rows.size(); ++i) {
             const bool isBest = std::ranges::count(table.emphasized, i) > 0;
             pugi::xml_node row = append(body, "tr", isBest ? "best" : nullptr);
-            for (const std::string& cell : table.rows[i]) appendCell(row, cell);
+            for (size_t column = 0; column < table.rows[i].size(); ++column)
+                appendCell(row, table.rows[i][column], isNumeric(table, column));
         }
     }
 
@@ -141,14 +137,20 @@ public:
     }
 
 private:
-    static bool isBlank(const std::string& cell) { return cell.empty() || cell == "–"; }
+    static bool isBlank(const std::string& cell) { return cell.empty() || cell == "–" || cell == "∞"; }
 
-    static void appendCell(pugi::xml_node row, const std::string& text) {
+    static bool isNumeric(const Table& table, size_t column) {
+        const auto is = [column](bool (*test)(const std::string&)) {
+            return [column, test](const auto& row) { return test(row[column]); };
+        };
+        return std::ranges::any_of(table.rows, is(isNumber)) &&
+               std::ranges::all_of(table.rows,
+                                   [&](const auto& row) { return is(isNumber)(row) || is(isBlank)(row); });
+    }
+
+    static void appendCell(pugi::xml_node row, const std::string& text, bool inNumbers) {
         const bool isLong = text.size() > kLongCell;
-        pugi::xml_node cell = append(row, "td",
-                                     isLong                            ? "long"
-                                     : isNumber(text) || isBlank(text) ? "number"
-                                                                       : nullptr);
+        pugi::xml_node cell = append(row, "td", isLong ? "long" : inNumbers ? "number" : nullptr);
         // A browser would take an element written as empty for one that was only opened.
         appendText(cell, text.empty() ? "–" : text);
     }

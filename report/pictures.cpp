@@ -102,7 +102,7 @@ std::string scaleText(double place, double tolerancePx) {
 // White with the colours in a bar and numbers below.
 OIIO::ImageBuf scaleOf(int widthPx, double tolerancePx) {
     using Align = OIIO::ImageBufAlgo::TextAlignX;
-    const int fontPx = std::clamp(widthPx / 26, 8, 24), barPx = fontPx;
+    const int fontPx = std::clamp(widthPx / 22, 8, 30), barPx = fontPx;
     OIIO::ImageBuf scale(OIIO::ImageSpec(widthPx, barPx + 2 * fontPx, 3, OIIO::TypeDesc::FLOAT));
     OIIO::ImageBufAlgo::fill(scale, {1.0f, 1.0f, 1.0f});
     OIIO::ImageBufAlgo::paste(scale, 0, fontPx / 3, 0, 0, scaleBar(widthPx, barPx));

@@ -16,9 +16,9 @@
 namespace curvewall {
 namespace {
 
-// As on a phone held upright, whose page is about 360 px wide: letters of 16 of 560 are 10 px there.
-constexpr int kLayoutWidthPx = 560;
-constexpr int kLayoutHeightPx = 430;  // without the legend
+// As on a phone held upright, whose page is about 360 px wide: letters of 16 of 500 are 11 px there.
+constexpr int kLayoutWidthPx = 500;
+constexpr int kLayoutHeightPx = 450;  // without the legend
 constexpr int kFontPx = 16;
 constexpr int kLegendRowPx = 22;
 constexpr int kLegendMarkPx = 62;
@@ -64,12 +64,13 @@ Axes axesOf(const Plot& plot) {
 int legendColumns(const Plot& plot) {
     size_t longest = 1;
     for (const Curve& curve : plot.curves) longest = std::max(longest, curve.name.size());
+    for (const Level& level : plot.levels) longest = std::max(longest, level.name.size());
     const double columnPx = kLegendMarkPx + kLetterPx * static_cast<double>(longest);
     return std::clamp(static_cast<int>(kLayoutWidthPx / columnPx), 1, 3);
 }
 
 int layoutHeightPx(const Plot& plot) {
-    const int names = static_cast<int>(plot.curves.size());
+    const int names = static_cast<int>(plot.curves.size() + plot.levels.size());
     const int columns = legendColumns(plot);
     return kLayoutHeightPx + kLegendRowPx * ((names + columns - 1) / columns);
 }
@@ -100,17 +101,12 @@ std::vector<glm::dvec2> extendedFront(const Plot& plot, const Axes& axes) {
     return front;
 }
 
+// After the curves, which svgOf counts.
 void writeLevels(std::ostream& out, const Plot& plot) {
-    for (const Level& level : plot.levels) {
-        if (!isOnAxis(level.y, plot.logarithmicY)) continue;
-        out << fmt::format(
-            "set arrow from graph 0, first {} to graph 1, first {} nohead back dashtype 2 "
-            "linecolor rgb '#808080'\n",
-            level.y, level.y);
-        // On the left, where fast settings would be if they were good.
-        out << fmt::format("set label {} at graph 0.015, first {} left offset 0,{} textcolor rgb '#707070'\n",
-                           gnuplotQuoted(level.name), level.y, plot.moreIsBetterY ? 0.6 : -0.6);
-    }
+    for (const Level& level : plot.levels)
+        if (isOnAxis(level.y, plot.logarithmicY))
+            out << fmt::format(", {} with lines linewidth 1.5 dashtype 2 linecolor rgb '#808080' title {}",
+                               level.y, gnuplotQuoted(level.name));
 }
 
 void writeCurves(std::ostream& out, const Plot& plot, const Axes& axes, double markSize) {
@@ -123,7 +119,7 @@ void writeCurves(std::ostream& out, const Plot& plot, const Axes& axes, double m
         writePoints(out, fmt::format("curve{}", i), visiblePoints(plot, plot.curves[i].points));
     // What is not there is drawn all the same, for its legend and for a plot that has nothing else.
     out << (front.empty() ? "plot NaN notitle"
-                          : "plot $front with steps linewidth 7 linecolor rgb '#c8c8c8' notitle");
+                          : "plot $front with steps linewidth 7 linecolor rgb '#90808080' notitle");
     for (size_t i = 0; i < plot.curves.size(); ++i) {
         const bool isEmpty = visiblePoints(plot, plot.curves[i].points).empty();
         out << fmt::format(", {} with {} linewidth 2 linecolor rgb '{}' pointtype {} pointsize {} title {}",
@@ -131,6 +127,7 @@ void writeCurves(std::ostream& out, const Plot& plot, const Axes& axes, double m
                            plot.curves[i].connected ? "linespoints" : "points", styles[i].color,
                            styles[i].mark, markSize, gnuplotQuoted(names[i]));
     }
+    writeLevels(out, plot);
     out << "\n";
 }
 
@@ -138,14 +135,13 @@ std::string scriptOf(const Plot& plot, const Terminal& terminal) {
     const Axes axes = axesOf(plot);
     std::ostringstream out;
     out << "set encoding utf8\nset terminal " << terminal.options << "\n"
-        << "set border 3 linecolor rgb '#808080'\nset tics nomirror textcolor rgb 'black'\n"
+        << "set border 3 linecolor rgb '#808080'\nset tics nomirror\n"
         << "set grid linecolor rgb '#909090' linewidth 0.5 dashtype 3\n"
         << "set title " << gnuplotQuoted(plot.title) << "\n"
         << "set key below left Left reverse horizontal samplen 2 spacing " << terminal.lineSpacing
         << " maxcols " << legendColumns(plot) << "\n";
     writeAxis(out, 'x', axes.x, plot.logarithmicX, plot.xLabel);
     writeAxis(out, 'y', axes.y, plot.logarithmicY, plot.yLabel);
-    writeLevels(out, plot);
     writeCurves(out, plot, axes, terminal.markSize);
     return out.str();
 }

@@ -24,7 +24,7 @@ const SettingResult* fastest(const std::vector<const SettingResult*>& results, d
 }  // namespace
 
 uint64_t faultyPixels(const SettingResult& result) {
-    return result.errors.misplacedPixels + result.errors.nanTexels + coverageFaults(result);
+    return coverageFaults(result) + result.errors.misplacedPixels + result.errors.nanTexels;
 }
 
 bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {

@@ -57,7 +57,7 @@ std::string madeOfText(const SettingResult& result) {
 
 Table settingsTable(const ViewReport& view, const SettingResult* best) {
     Table table{{"setting", "ms", "ms, rounds", "largest error, px", "99 in 100, px", "wrong pixels, %",
-                 "wrong, flat colours, %", "PSNR, dB", "SSIM", "faulty pixels",
+                 "wrong edges, %", "PSNR, dB", "SSIM", "faulty pixels",
                  fmt::format("PSNR of {} rays, dB", view.truth.supersamples), "made of", "pairs",
                  "overdraw, %", "on the GPU, MiB", "peak, MiB"},
                 {}};

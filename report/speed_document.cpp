@@ -29,9 +29,8 @@ std::string truthText(const SpeedReport& report) {
         noisiest = std::min(noisiest, view.truth.noiseDb);
     }
     return fmt::format(
-        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel, whose own noise is {} dB. Beyond "
-        "that, "
-        "differences say nothing. It rewards blur, so that it decides nothing here.",
+        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel, whose own noise is {} dB. "
+        "Beyond that, differences say nothing. It rewards blur, so that it decides nothing here.",
         fewest, decibelText(noisiest));
 }
 
@@ -39,23 +38,24 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
     blocks.emplace_back(Heading{2, "How to read it"});
     blocks.emplace_back(List{
         {"Geometric error: how many pixels away from its place a thing is shown. The largest of all pixels "
-         "counts. "
-         "Beside it stands what 99 pixels in 100 keep.",
+         "counts. Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn, in "
+         "floats, which may add a thousandth of a pixel.",
          "Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
-         "truth, "
-         "one exact ray through the centre of each pixel. With flat colours only edges can be wrong. PSNR "
-         "and "
-         "SSIM compare the same pictures as they are.",
+         "truth, one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. "
+         "Of several samples a pixel the supersampled picture is the truth.",
+         "Wrong edges: the same with every surface in one flat colour. Nothing can be wrong there but "
+         "where things are; textures and their filters are left out.",
          "Coverage error: pixels that show nothing where the truth has something all around, or something "
-         "where it has nothing; and in a closed room around the eye those that show nothing, or the room "
-         "twice. Faulty pixels are all of these, misplaced ones and those without a number.",
+         "where it has nothing; and in a closed room around the eye, pixels that show nothing, or the room "
+         "twice. With pixels that show what is not on the display, and those without a number, these are "
+         "the faulty pixels.",
          "Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
-         "textures "
-         "in another way than traced rays. No method can be expected to come below.",
+         "textures in another way than traced rays. No method can be expected to come below.",
          truthText(report),
-         "Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. Reading "
-         "back and writing files are not in it.",
-         "Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error."}});
+         "Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. "
+         "Reading back and writing files are not in it.",
+         "Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; "
+         "the reference, which the others are judged by, takes no part."}});
     blocks.emplace_back(Paragraph{fmt::format(
         "Measured with `{}` on {}. Errors are the same everywhere; times are those of this machine.",
         report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,
@@ -63,13 +63,13 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
 }
 
 Table floorTable(const ViewReport& view) {
-    Table table{{"samples", "wrong pixels, %", "wrong, flat colours, %", "PSNR, dB",
+    Table table{{"samples", "wrong pixels, %", "wrong edges, %", "PSNR, dB",
                  fmt::format("PSNR of {} rays, dB", view.truth.supersamples)},
                 {}};
     for (const SamplingFloor& floor : view.floors)
         table.rows.push_back({std::to_string(floor.samples), percentText(floor.shareOff),
-                              percentText(floor.edgesOff), decibelText(floor.psnrDb),
-                              decibelText(floor.supersampledPsnrDb)});
+                              floor.samples == 1 ? percentText(floor.edgesOff) : "–",
+                              decibelText(floor.psnrDb), decibelText(floor.supersampledPsnrDb)});
     return table;
 }
 
@@ -83,7 +83,7 @@ void addOrders(std::vector<Block>& blocks, const ViewReport& view) {
     blocks.emplace_back(Heading{3, "How errors fall"});
     blocks.emplace_back(Paragraph{
         "An error of order 2 falls to a quarter when the knob is turned to half; of order -1 it doubles. "
-        "Fitted to the points above the floor. Of wrong pixels the floor is taken off first."});
+        "Fitted to the points above the floor. Of wrong edges the floor is taken off first."});
     blocks.emplace_back(table);
 }
 

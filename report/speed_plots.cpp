@@ -18,8 +18,11 @@ constexpr size_t kMostCurves = 10;
 using Measure = std::function<double(const SettingResult&)>;
 
 double geometricPx(const SettingResult& result) { return result.errors.geometric.maxPx; }
+// Below this all there is are the roundings of floats.
+constexpr double kLeastShownPx = 0.001;
+double shownGeometricPx(const SettingResult& result) { return std::max(geometricPx(result), kLeastShownPx); }
 double wrongPercent(const SettingResult& result) { return 100 * result.errors.image.shareOff; }
-// Of several samples nothing is known in flat colours, and no logarithm shows 0.
+// Of several samples a pixel there is no such number, and the curve has no such point.
 double wrongEdgesPercent(const SettingResult& result) {
     return result.edges ? 100 * result.edges->shareOff : 0;
 }
@@ -94,11 +97,11 @@ std::string viewTitle(const ViewReport& view) {
     return fmt::format("{}, {}, {}", view.wall, view.display, view.scene);
 }
 
-bool hasNoPoints(const Plot& plot) { return plot.front.empty(); }
-
 PlotFigure figureOf(const ViewReport& view, Plot plot, const Measure& measure, const std::string& unit) {
     plot.curves = curvesOf(view, measure, unit);
-    std::vector<glm::dvec2> points = allPoints(plot.curves);
+    std::vector<Curve> judged = plot.curves;
+    std::erase_if(judged, [](const Curve& curve) { return methodOf(curve.name) == "reference"; });
+    std::vector<glm::dvec2> points = allPoints(judged);
     // What a logarithmic axis cannot show must not be what shuts everything else out of the front.
     std::erase_if(points, [&](glm::dvec2 p) { return plot.logarithmicY ? !(p.y > 0) : !std::isfinite(p.y); });
     plot.front = paretoFront(points, plot.moreIsBetterY);
@@ -119,7 +122,7 @@ std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, c
     wrong.yLabel = "wrong pixels, %";
     wrong.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.shareOff; });
     Plot edges;
-    edges.yLabel = "wrong pixels in flat colours, %";
+    edges.yLabel = "wrong edges, %";
     edges.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.edgesOff; });
     Plot psnr;
     psnr.yLabel = fmt::format("PSNR against {} rays a pixel, dB", view.truth.supersamples);
@@ -127,19 +130,22 @@ std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, c
     psnr.moreIsBetterY = true;
     psnr.levels = floorLevels(view, [](const SamplingFloor& floor) { return floor.supersampledPsnrDb; });
 
-    std::vector<PlotFigure> figures{
-        figureOf(view, geometric, geometricPx, "px"), figureOf(view, wrong, wrongPercent, "% wrong"),
-        figureOf(view, edges, wrongEdgesPercent, "% wrong"), figureOf(view, psnr, supersampledDb, "dB")};
+    std::vector<PlotFigure> figures{figureOf(view, geometric, shownGeometricPx, "px"),
+                                    figureOf(view, edges, wrongEdgesPercent, "% wrong"),
+                                    figureOf(view, wrong, wrongPercent, "% wrong"),
+                                    figureOf(view, psnr, supersampledDb, "dB")};
     figures[0].picture = {stem + "-geometric.png",
-                          "Time against the largest geometric error. Lower left is better."};
-    figures[1].picture = {stem + "-wrong-pixels.png",
+                          "Time against the largest geometric error. Less than 0.001 px is drawn as 0.001 "
+                          "px. Lower left is better."};
+    figures[1].picture = {stem + "-wrong-edges.png",
+                          "Time against the share of wrong edges: what is shown at the wrong place, whatever "
+                          "filters textures. Lower left is better."};
+    figures[2].picture = {stem + "-wrong-pixels.png",
                           "Time against the share of wrong pixels. Lower left is better."};
-    figures[2].picture = {stem + "-wrong-edges.png",
-                          "The same in flat colours, where only edges can be wrong."};
     figures[3].picture = {
         stem + "-supersampled.png",
         "Time against likeness to the supersampled truth. Upper left is better; blur counts as likeness."};
-    std::erase_if(figures, [](const PlotFigure& figure) { return hasNoPoints(figure.plot); });
+    std::erase_if(figures, [](const PlotFigure& figure) { return figure.plot.front.empty(); });
     return figures;
 }
 

@@ -9,7 +9,7 @@
 
 namespace curvewall {
 
-// Against the geometric error, the share of wrong pixels, that in flat colours where it is known, and the
+// Against the geometric error, that of wrong edges where it is known, the share of wrong pixels, and the
 // PSNR against the supersampled truth. Of many curves they show those nearest to the front, and of each
 // method one at least. Files begin with `stem`.
 std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, const std::string& stem);

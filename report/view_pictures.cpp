@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kCropPx = 64;
 constexpr int kCropFactor = 4;
+constexpr int kTruthWidthPx = 1024;  // in the page, where it says what one looks at
 
 std::string written(const Frame& frame, const std::string& folder, const std::string& name) {
     const std::string file = "pictures/" + name + ".png";
@@ -42,7 +43,7 @@ void cropPictures(ViewReport& view, const Truth& truth, const std::string& folde
             result.crop = written(enlarged(readFrame(folder + "/" + result.picture), worst, kCropFactor),
                                   folder, name + "-crop");
         }
-    view.truth.picture = written(truth.color, folder, stem + "-truth");
+    view.truth.picture = written(reduced(truth.color, kTruthWidthPx), folder, stem + "-truth");
     view.truth.crop = written(enlarged(truth.color, worst, kCropFactor), folder, stem + "-truth-crop");
 }
 

@@ -29,7 +29,7 @@ std::string measureText(double value) {
 
 std::string percentText(double share) { return measureText(100 * share); }
 
-std::string decibelText(double db) { return std::isinf(db) ? "equal" : fmt::format("{:.1f}", db); }
+std::string decibelText(double db) { return std::isinf(db) ? "∞" : fmt::format("{:.1f}", db); }
 
 std::string timesText(double ratio) {
     if (std::abs(ratio - 1) < 0.05) return "about as long";

@@ -14,7 +14,7 @@ std::string countText(uint64_t count);  // "1,673"
 std::string measureText(double value);
 
 std::string percentText(double share);  // "0.42"; of 1
-std::string decibelText(double db);     // "39.8", "equal" where it is infinite
+std::string decibelText(double db);     // "39.8", "∞" of equal pictures
 std::string timesText(double ratio);    // "3.1 times as long", "about as long"
 
 // "`image-based` (cube, linear) with faces of 2,048 px"

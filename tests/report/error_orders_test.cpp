@@ -32,22 +32,16 @@ TEST(ErrorOrders, AreTheExponentsOfTheFormulas) {
     }
 }
 
-TEST(ErrorOrders, OfWrongPixelsLeaveOutTheFloor) {
-    // 0.004 + 6 / size: nearly flat as it is.
-    const ErrorOrder order =
-        find(errorOrders(test::madeUpReport().views[0]), "image-based, cube, linear", "wrong pixels");
-    EXPECT_NEAR(order.order, -1, 1e-9);
-    EXPECT_EQ(order.points, 4);
-}
-
-TEST(ErrorOrders, TakeFlatColoursWhereTheyAreKnown) {
+TEST(ErrorOrders, OfWrongEdgesLeaveOutTheFloor) {
     ViewReport view = test::madeUpReport().views[0];
-    view.floors[0].edgesOff = 0.001;
+    view.floors[0].edgesOff = 0.01;
     for (SettingResult& result : view.settings) {
         result.edges.emplace();
-        result.edges->shareOff = 0.001 + 0.01 * result.setting.value * result.setting.value;
+        result.edges->shareOff = 0.01 + 0.2 * result.setting.value * result.setting.value;
     }
-    EXPECT_NEAR(find(errorOrders(view), "piecewise", "wrong pixels").order, 2, 1e-9);
+    const ErrorOrder order = find(errorOrders(view), "piecewise", "wrong edges");
+    EXPECT_NEAR(order.order, 2, 1e-9);
+    EXPECT_EQ(order.points, 5);  // at 0.05 px hardly anything lies above the floor
 }
 
 TEST(ErrorOrders, LeaveOutPointsAtTheFloor) {
@@ -55,7 +49,6 @@ TEST(ErrorOrders, LeaveOutPointsAtTheFloor) {
     for (SettingResult& result : view.settings)
         if (result.setting.method == "piecewise" && result.setting.value < 0.3) {
             result.errors.geometric.maxPx = 0.001;
-            result.errors.image.shareOff = view.floors[0].shareOff;
         }
     const std::vector<ErrorOrder> orders = errorOrders(view);
     EXPECT_EQ(find(orders, "piecewise", "geometric, largest").points, 3);

@@ -42,7 +42,7 @@ ViewReport madeUpView(const std::string& wall, const std::string& display, glm::
     view.scene = "city";
     view.sizePx = sizePx;
     view.truth = {64, 52.5, "", ""};
-    view.floors = {{1, kFloorShare, 49.5, 31.2}, {4, 0.5 * kFloorShare, 52, 36.1}};
+    view.floors = {{1, kFloorShare, 0, 49.5, 31.2}, {4, 0.5 * kFloorShare, 0, 52, 36.1}};
     return view;
 }
 

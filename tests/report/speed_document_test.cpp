@@ -118,7 +118,7 @@ TEST(Advice, SaysWhatToUseAndWhatItCosts) {
     EXPECT_THAT(
         text,
         HasSubstr("Half the error, 0.125 px, costs `piecewise` at 0.1 px: 77.5 ms, 1.2 times as long."));
-    EXPECT_THAT(text, Not(HasSubstr("covered wrongly")));
+    EXPECT_THAT(text, Not(HasSubstr("faulty")));
 }
 
 TEST(Advice, SaysWhereNothingKeepsTheTolerance) {
@@ -139,9 +139,9 @@ TEST(Advice, SaysWhatElseThereIsNot) {
 TEST(Advice, CountsWhatIsCoveredWrongly) {
     ViewReport view = viewOf({pieces(0.25, 62)});
     view.settings[0].errors.coverage.uncoveredPixels = 1;
-    EXPECT_THAT(adviceText(view), HasSubstr("1 pixel is covered wrongly."));
+    EXPECT_THAT(adviceText(view), HasSubstr("off. 1 faulty pixel."));
     view.settings[0].errors.coverage.uncoveredPixels = 3000;
-    EXPECT_THAT(adviceText(view), HasSubstr("comes to 0.247 px in 62 ms, with 3,000 pixels covered wrongly"));
+    EXPECT_THAT(adviceText(view), HasSubstr("comes to 0.247 px in 62 ms, with 3,000 faulty pixels"));
 }
 
 TEST(SpeedDocument, HasPlotsAndTablesOfEveryView) {

@@ -43,8 +43,8 @@ TEST(Words, NameSettings) {
     EXPECT_EQ(settingText({"reference", "", "samples", 16, 16}), "`reference`, 16 samples");
 }
 
-TEST(Words, OfEqualPicturesSaySo) {
-    EXPECT_EQ(decibelText(std::numeric_limits<double>::infinity()), "equal");
+TEST(Words, OfEqualPicturesAreInfinite) {
+    EXPECT_EQ(decibelText(std::numeric_limits<double>::infinity()), "∞");
     EXPECT_EQ(decibelText(39.84), "39.8");
 }
 
