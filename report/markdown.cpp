@@ -72,7 +72,7 @@ struct MarkdownWriter {
     std::string operator()(const Paragraph& paragraph) const { return lineText(paragraph.text) + "\n"; }
     std::string operator()(const List& list) const {
         std::string lines;
-        for (const std::string& item : list.items) lines += "- " + lineText(item) + "\n";
+        for (const std::string& item : list.items) lines.append("- ").append(lineText(item)).append("\n");
         return lines;
     }
     std::string operator()(const Table& table) const {
@@ -94,7 +94,8 @@ struct MarkdownWriter {
                 captions += " " + inlineText(row.pictures[i].caption, true) + " |";
                 rule += " --- |";
             }
-            lines += (begin > 0 ? "\n" : "") + files + "\n" + rule + "\n" + captions + "\n";
+            if (begin > 0) lines += "\n";
+            lines.append(files).append("\n").append(rule).append("\n").append(captions).append("\n");
         }
         return lines;
     }

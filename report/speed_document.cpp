@@ -36,26 +36,28 @@ std::string truthText(const SpeedReport& report) {
 
 void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
     blocks.emplace_back(Heading{2, "How to read it"});
-    blocks.emplace_back(List{
-        {"Geometric error: how many pixels away from its place a thing is shown. The largest of all pixels "
-         "counts. Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn, in "
-         "floats, which may add a thousandth of a pixel.",
-         "Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
-         "truth, one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. "
-         "Of several samples a pixel the supersampled picture is the truth.",
-         "Wrong edges: the same with every surface in one flat colour. Nothing can be wrong there but "
-         "where things are; textures and their filters are left out.",
-         "Coverage error: pixels that show nothing where the truth has something all around, or something "
-         "where it has nothing; and in a closed room around the eye, pixels that show nothing, or the room "
-         "twice. With pixels that show what is not on the display, and those without a number, these are "
-         "the faulty pixels.",
-         "Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
-         "textures in another way than traced rays. No method can be expected to come below.",
-         truthText(report),
-         "Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. "
-         "Reading back and writing files are not in it.",
-         "Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; "
-         "the reference, which the others are judged by, takes no part."}});
+    List words;
+    const auto say = [&words](std::string text) { words.items.push_back(std::move(text)); };
+    say("Geometric error: how many pixels away from its place a thing is shown. The largest of all pixels "
+        "counts. Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn, in "
+        "floats, which may add a thousandth of a pixel.");
+    say("Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
+        "truth, one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. "
+        "Of several samples a pixel the supersampled picture is the truth.");
+    say("Wrong edges: the same with every surface in one flat colour. Nothing can be wrong there but "
+        "where things are; textures and their filters are left out.");
+    say("Coverage error: pixels that show nothing where the truth has something all around, or something "
+        "where it has nothing; and in a closed room around the eye, pixels that show nothing, or the room "
+        "twice. With pixels that show what is not on the display, and those without a number, these are "
+        "the faulty pixels.");
+    say("Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
+        "textures in another way than traced rays. No method can be expected to come below.");
+    say(truthText(report));
+    say("Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. "
+        "Reading back and writing files are not in it.");
+    say("Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; "
+        "the reference, which the others are judged by, takes no part.");
+    blocks.emplace_back(std::move(words));
     blocks.emplace_back(Paragraph{fmt::format(
         "Measured with `{}` on {}. Errors are the same everywhere; times are those of this machine.",
         report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,
