@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,7 +47,7 @@ std::string numberText(double value) {
     return value == 0 ? "0" : fmt::format("{:.2g}", value);
 }
 
-std::string valueText(double value) { return fmt::format("{:g}", value); }
+std::string valueText(double value) { return fmt::format("{:.7g}", value); }
 
 // From where on a method is broken, or refuses.
 struct Course {
@@ -116,11 +117,20 @@ Table resultTable(const Told& told) {
     return table;
 }
 
+// Names have commas of their own.
+std::string inWords(const std::vector<std::string>& names) {
+    std::string text = names.front();
+    for (size_t i = 1; i < names.size(); ++i) text += (i + 1 < names.size() ? "; " : " and ") + names[i];
+    return text;
+}
+
 // Why each method stops where it stops, or is fine to the end.
 List findings(const Told& told) {
     List list;
     std::vector<std::string> fine;
     std::set<std::string> wallRefusals;
+    std::map<std::string, std::vector<std::string>>
+        refusedBy;  // methods that draw none of it, by what they say
     for (const CaseTruth& truth : told.result.truths)
         if (!truth.refusal.empty() && wallRefusals.insert(truth.refusal).second)
             list.items.push_back("Refused at " + valueText(truth.value) + " for every method: \"" +
@@ -136,16 +146,16 @@ List findings(const Told& told) {
         } else if (!course.isAllRefused) {
             fine.push_back(method);
         }
-        if (course.refusedFrom && wallRefusals.empty())
+        if (course.isAllRefused)
+            refusedBy[told.at(told.family.values.front(), method).reason].push_back(method);
+        if (course.refusedFrom && !course.isAllRefused && wallRefusals.empty())
             list.items.push_back(fmt::format("{} refuses at {}: \"{}\".", method,
                                              valueText(*course.refusedFrom),
                                              told.at(*course.refusedFrom, method).reason));
     }
-    if (!fine.empty()) {
-        std::string names = fine.front();
-        for (size_t i = 1; i < fine.size(); ++i) names += (i + 1 < fine.size() ? "; " : " and ") + fine[i];
-        list.items.push_back("Fine wherever not refused: " + names + ".");
-    }
+    for (const auto& [reason, methods] : refusedBy)
+        list.items.push_back("Refused by " + inWords(methods) + ": \"" + reason + "\".");
+    if (!fine.empty()) list.items.push_back("Fine wherever not refused: " + inWords(fine) + ".");
     return list;
 }
 
@@ -202,7 +212,8 @@ void tellFamily(const Told& told, std::vector<Block>& blocks) {
 Table limitTable() {
     Table table{{"family", "method", "from", "why"}, {}};
     for (const KnownLimit& limit : knownLimits())
-        table.rows.push_back({limit.family, limit.methods, valueText(limit.from), limit.why});
+        table.rows.push_back(
+            {limit.family, limit.methods.empty() ? "any" : limit.methods, valueText(limit.from), limit.why});
     return table;
 }
 

@@ -166,6 +166,30 @@ TEST_F(Piecewise, PolygonsOfUpToSixEdgesCoverEveryPixelOfAClosedRoomOnce) {
     }
 }
 
+// A walk over all of them goes round more often than llvmpipe lets the loops of a shader.
+TEST_F(Piecewise, AWallThatManyPiecesShowIsWholeWhateverLooksThemUp) {
+    constexpr glm::ivec2 kCells(300, 200);
+    RenderRequest request = test::requestFor(test::planarWall({600, 400}, 90), loadScene("room"));
+    const Display& display = request.wall->displays[0];
+    PieceGrid grid{display.sizePx, kCells.x, kCells.y, {}};
+    for (int y = 0; y <= kCells.y; ++y)
+        for (int x = 0; x <= kCells.x; ++x) {
+            const glm::dvec2 px(2 * x, 2 * y);
+            grid.vertices.push_back({*display.projection->unproject(px), px});
+        }
+    auto pieces = std::make_shared<FittedPieces>();
+    pieces->mesh = meshFromGrid(grid, true);
+    pieces->owners =
+        std::make_shared<const std::vector<int32_t>>(certifyPieces(*display.projection, pieces->mesh).owners);
+    request.pieces = pieces;
+    request.output = OutputKind::coverage;
+    for (const Engine engine : {Engine::compute, Engine::geometry}) {
+        request.engine = engine;
+        const Frame coverage = renderer_.render(request).frame;
+        EXPECT_EQ(std::ranges::count(coverage.texels, 1.0f), 600 * 400) << static_cast<int>(engine);
+    }
+}
+
 TEST_F(Piecewise, AClosedRoomShowsNoBackgroundInColour) {
     test::Random random(2);
     RenderRequest request = test::requestFor(test::fullCylinderWall({1600, 1200}), loadScene("room"));
