@@ -3,6 +3,7 @@
 
 #include "bench/compare/flat_city.h"
 #include "bench/compare/settings.h"
+#include "bench/request.h"
 #include "calibration/errors.h"
 #include "calibration/readers/wall_reader.h"
 #include "renderer/gl/egl_context.h"
@@ -62,11 +63,8 @@ void printRow(const RenderRequest& request, const Display& display, const Render
 
 void compareOn(const WallPtr& wall, const Display& display, const ScenePtr& scene,
                const std::vector<Sampling>& samplings) {
-    RenderRequest base;
-    base.wall = wall;
+    RenderRequest base = requestFor(wall, scene);
     base.display = display.name;
-    base.scene = scene;
-    base.camera = scene->defaultCamera;
     base.style = Style::unlit;
     Renderer renderer;
     const Truth truth = truthOf(renderer, base);
