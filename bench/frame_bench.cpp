@@ -1,5 +1,6 @@
 // Milliseconds a frame, each beside its error: the median of frames that turn the camera once around, warm.
 
+#include "bench/request.h"
 #include "renderer/render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/test_walls.h"
@@ -16,12 +17,7 @@ constexpr int kFrames = 36;
 
 RenderRequest cityRequest(Wall wall) {
     static const ScenePtr city = std::make_shared<const Scene>(loadScene("city"));
-    RenderRequest request;
-    request.wall = std::make_shared<const Wall>(std::move(wall));
-    request.scene = city;
-    request.camera = city->defaultCamera;
-    request.frames = kFrames;
-    return request;
+    return requestFor(std::make_shared<const Wall>(std::move(wall)), city, kFrames);
 }
 
 void measure(benchmark::State& state, const RenderRequest& request) {

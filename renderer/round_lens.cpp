@@ -21,7 +21,7 @@ const RadialLens& lensOf(const Display& display) {
     if (lens) return *lens;
     const bool isOnDome = dynamic_cast<const DomeProjection*>(display.projection.get()) != nullptr;
     throw UsageError(
-        "bounded-raycast draws the projections radial and curvilinear, as seen from the lens; "
+        "bounded-raycast draws round lenses seen from the lens: radial, curvilinear, a fisheye camera; "
         "display \"" +
         display.name + "\" is " + display.projectionType +
         (isOnDome ? " on a dome, which its eye and its lens see differently" : ""));

@@ -1,6 +1,7 @@
 // The image-based method's choices side by side, as CSV: how faces are drawn, where they are looked up, how
 // they are filtered. Run it on an otherwise idle machine.
 
+#include "bench/request.h"
 #include "bench/speed/rounds.h"
 #include "calibration/errors.h"
 #include "calibration/readers/wall_reader.h"
@@ -122,11 +123,8 @@ void printRow(const std::string& display, const RenderRequest& request, const Re
 }
 
 void measureOn(const WallPtr& wall, const Display& display, const ScenePtr& scene, const Options& options) {
-    RenderRequest base;
-    base.wall = wall;
+    RenderRequest base = requestFor(wall, scene);
     base.display = display.name;
-    base.scene = scene;
-    base.camera = scene->defaultCamera;
     base.method = Method::imageBased;
     Renderer renderer;
     std::optional<Truth> truth;

@@ -1,5 +1,6 @@
 // Every method that meets a tolerance, over walls and scenes, against the one that is chosen by itself.
 
+#include "bench/request.h"
 #include "bench/speed/csv.h"
 #include "bench/speed/parts.h"
 #include "bench/speed/rounds.h"
@@ -108,13 +109,9 @@ void measureMethods(const SpeedOptions& options) {
             Renderer renderer;
             const auto pieces = std::make_shared<const FittedPieces>(fitPieces(display, options.tolerancePx));
             for (const ScenePtr& scene : scenes) {
-                RenderRequest base;
-                base.wall = wall;
+                RenderRequest base = requestFor(wall, scene, options.frames);
                 base.display = display.name;
-                base.scene = scene;
-                base.camera = scene->defaultCamera;
                 base.tolerancePx = options.tolerancePx;
-                base.frames = options.frames;
                 base.pieces = pieces;
                 const std::string name = std::filesystem::path(file).stem().string() + "/" + display.name;
                 measureOn(renderer, base, display, options, name + " " + scene->name);

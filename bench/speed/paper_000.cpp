@@ -1,5 +1,6 @@
 // Tables 2 and 3 of Gascuel et al. (2008) with our scenes.
 
+#include "bench/request.h"
 #include "bench/speed/csv.h"
 #include "bench/speed/parts.h"
 #include "bench/speed/rounds.h"
@@ -92,14 +93,10 @@ std::vector<View> viewsOf(int sizePx) {
 
 RenderRequest requestOf(const View& view, const WallPtr& wall, const ScenePtr& scene, OutputKind output,
                         int frames) {
-    RenderRequest request;
-    request.wall = wall;
-    request.scene = scene;
-    request.camera = scene->defaultCamera;
+    RenderRequest request = requestFor(wall, scene, frames);
     request.method = view.method;
     request.bounds = view.bounds;
     request.output = output;
-    request.frames = frames;
     return request;
 }
 

@@ -1,5 +1,6 @@
 #include "bench/speed/walls.h"
 
+#include "bench/request.h"
 #include "calibration/pieces/ownership.h"
 #include "calibration/projections/camera_texture.h"
 #include "calibration/projections/frustum.h"
@@ -122,13 +123,9 @@ PieceWall evenCameraTexture(glm::ivec2 cells) {
 }
 
 RenderRequest requestFor(const PieceWall& wall, const ScenePtr& scene, int frames) {
-    RenderRequest request;
-    request.wall = wall.wall;
-    request.scene = scene;
-    request.camera = scene->defaultCamera;
+    RenderRequest request = requestFor(wall.wall, scene, frames);
     request.tolerancePx = wall.tolerancePx;
     request.pieces = wall.pieces;
-    request.frames = frames;
     request.timesStages = true;
     return request;
 }

@@ -65,7 +65,8 @@ std::vector<Variant> variants() {
         {"image-based, planar", [](RenderRequest& request) { chooseSource(request, SourceKind::planar); },
          0.75, kEdges, "a planar source holds what lies within 85 degrees of its axis"},
         {"bounded-raycast", [](RenderRequest& request) { request.method = Method::boundedRaycast; }, 0.01,
-         std::nullopt, "bounded-raycast draws the projections radial and curvilinear"},
+         std::nullopt,
+         "bounded-raycast draws round lenses seen from the lens: radial, curvilinear, a fisheye camera"},
         {"vertex-warp",
          [](RenderRequest& request) {
              request.method = Method::vertexWarp;

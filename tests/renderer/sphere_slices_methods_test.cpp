@@ -95,7 +95,7 @@ TEST_F(SphereSlices, AreRefusedByBoundedRaycast) {
         Renderer().render(roomOnSlices(Method::boundedRaycast));
         FAIL() << "was drawn";
     } catch (const UsageError& error) {
-        EXPECT_THAT(error.what(), ::testing::HasSubstr("draws the projections radial and curvilinear"));
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("draws round lenses seen from the lens"));
     }
 }
 

@@ -230,7 +230,7 @@ TEST_F(DaemonE2eTest, AnEyeThatMovesGetsASparseCertificateAtOnceAndAFullOneLater
     EXPECT_EQ(statsFrom(0)["certificate"]["every"], 1);
     const json atOnce = statsFrom(0.001);
     EXPECT_EQ(atOnce["certificate"]["every"], 8);
-    EXPECT_GT(atOnce["certificate"]["full_age_ms"], 0);
+    EXPECT_GE(atOnce["certificate"].value("full_age_ms", -1.0), 0);
     EXPECT_LE(atOnce["geometric_error_px"]["max"], 0.25);
     while (statsFrom(0.001)["certificate"]["every"] != 1) std::this_thread::yield();
 }
