@@ -22,8 +22,6 @@ constexpr double kScaleOctaves = 4;  // to either side of the tolerance
 constexpr const char* kScaleColors = "inferno";
 constexpr const char* kFont = "DejaVuSans";
 constexpr std::array kNowhereColor{0.216f, 0.216f, 0.216f};  // sRGB 128
-constexpr std::array kWrongColor{0.665f, 0.112f, 0.0f};      // vermilion
-constexpr int kOffBy = 8;                                    // as ImageDifference::shareOff counts
 
 void checkAlike(const Frame& drawn, const Frame& truth) {
     if (drawn.sizePx != truth.sizePx || drawn.channels != 3 || truth.channels != 3)
@@ -150,26 +148,6 @@ Frame errorMap(const std::vector<float>& errorsPx, glm::ivec2 sizePx, double tol
     colors.get_pixels(colors.roi(), OIIO::TypeDesc::FLOAT, map.texels.data());
     for (const glm::ivec2 px : nowhere) setTexel(map, px.x, px.y, kNowhereColor);
     return below(map, scaleOf(map.sizePx.x, tolerancePx));
-}
-
-Frame wrongPixelMap(const Frame& drawn, const Frame& truth, int widthPx) {
-    checkAlike(drawn, truth);
-    const Blocks blocks(truth.sizePx, widthPx);
-    Frame map = colorFrame(blocks.sizePx, 0);
-    for (int y = 0; y < blocks.sizePx.y; ++y)
-        for (int x = 0; x < blocks.sizePx.x; ++x) {
-            bool isOff = false;
-            float light = 0, pixels = 0;
-            blocks.forEachPixel(x, y, [&](int column, int row) {
-                const float* color = truth.at(column, row);
-                light += 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
-                ++pixels;
-                isOff = isOff || difference(drawn, truth, column, row) > kOffBy;
-            });
-            const float pale = 0.6f + 0.4f * std::clamp(light / pixels, 0.0f, 1.0f);
-            setTexel(map, x, y, isOff ? kWrongColor : std::array{pale, pale, pale});
-        }
-    return map;
 }
 
 Frame reduced(const Frame& frame, int widthPx) {

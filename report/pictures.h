@@ -19,10 +19,6 @@ inline constexpr int kMapWidthPx = 640;
 Frame errorMap(const std::vector<float>& errorsPx, glm::ivec2 sizePx, double tolerancePx,
                int widthPx = kMapWidthPx);
 
-// The truth in pale grey, and on it the pixels that compareColor counts as off. Throws UsageError unless both
-// are colour frames of one size.
-Frame wrongPixelMap(const Frame& drawn, const Frame& truth, int widthPx = kMapWidthPx);
-
 // At most so wide; each pixel is the mean light of its block.
 Frame reduced(const Frame& frame, int widthPx);
 

@@ -91,29 +91,6 @@ TEST(ErrorMap, ThatIsSmallerShowsTheWorstOfEachBlock) {
     EXPECT_GT(luminance(map, 50, 16), 0.3);
 }
 
-TEST(WrongPixelMap, MarksWhatIsOffByMoreThanEight) {
-    const Frame truth = constantFrame(kSizePx, linearFromSrgbByte(100));
-    Frame drawn = truth;
-    texel(drawn, 7, 9, 1) = linearFromSrgbByte(109);
-    texel(drawn, 8, 9, 1) = linearFromSrgbByte(108);
-    const Frame map = wrongPixelMap(drawn, truth);
-    for (int y = 0; y < kSizePx.y; ++y)
-        for (int x = 0; x < kSizePx.x; ++x) {
-            const auto [red, green, blue] = bytes(map, x, y);
-            EXPECT_EQ(red != green || green != blue, x == 7 && y == 9);
-        }
-    EXPECT_THROW(wrongPixelMap(drawn, constantFrame({3, 3}, 0)), UsageError);
-}
-
-TEST(WrongPixelMap, ThatIsSmallerLosesNone) {
-    const Frame truth = constantFrame({500, 300}, 0.2f);
-    Frame drawn = truth;
-    texel(drawn, 499, 299, 0) = 1;
-    const Frame map = wrongPixelMap(drawn, truth, 50);
-    EXPECT_EQ(map.sizePx, glm::ivec2(50, 30));
-    EXPECT_GT(bytes(map, 49, 29)[0], bytes(map, 49, 29)[1]);
-}
-
 TEST(Reduced, HasTheMeanLight) {
     Frame frame = constantFrame({6, 2}, 0);
     texel(frame, 0, 0, 1) = 1;

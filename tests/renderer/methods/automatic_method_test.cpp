@@ -73,6 +73,21 @@ TEST(AutomaticMethod, TakesTheFastestOfThoseThatItTried) {
     }
 }
 
+TEST(AutomaticMethod, IsNotMisledByADisturbanceOfItsFirstTrial) {
+    const RenderRequest request = smallRequest();
+    AutomaticMethod automatic;
+    Methods methods;
+    std::string disturbed;
+    methods.frameMs = [&](const RenderRequest& asked) {
+        if (disturbed.empty()) disturbed = settingsOf(asked);
+        if (settingsOf(asked) != disturbed) return 1.5;
+        return asked.measuresError ? 1.9 : 1.0;  // only the first trial looks at errors
+    };
+    const RenderStats stats = methods.render(automatic, request).stats;
+    EXPECT_EQ(stats.choice->forecasts.front().settings, disturbed);
+    EXPECT_EQ(stats.choice->forecasts.front().trialMs, 1.0);
+}
+
 TEST(AutomaticMethod, RulesOutWhatMissesTheToleranceInATrial) {
     AutomaticMethod automatic;
     Methods methods;
