@@ -25,8 +25,8 @@ public:
         Style style = Style::textured;
         OutputKind output = OutputKind::color;
         int samples = 1;  // rays per pixel: 1 casts the pixel centre, n a stratified, seeded pattern
-        uint64_t seed = 0;  // of the pattern, for pictures that are averaged
         int threads = 0;  // 0: all cores; the picture does not depend on it
+        uint64_t seed = 0;  // of the pattern, for pictures that are averaged
     };
     // Colour is mixed and averaged in linear light; the other outputs are of the pixel's centre. What blends
     // counts as cover and leaves depth and position to what it does not hide.

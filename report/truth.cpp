@@ -48,7 +48,7 @@ public:
 
     Frame trace(OutputKind output, int samples = 1, uint64_t seed = 0) const {
         return rays_.render(*request_.wall, display_, request_.camera,
-                            {request_.style, output, samples, seed});
+                            {request_.style, output, samples, 0, seed});
     }
     Frame blended(Frame color) const {
         if (display_.blend) blend(color, *display_.blend, mostLight(request_.linearOutput));
