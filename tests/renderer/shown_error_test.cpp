@@ -93,7 +93,8 @@ Told toldBeyondTheBorder(const Display& display, double asidePx) {
 
 TEST(ShownError, GoesStraightOnAcrossABorderBeyondWhichNothingIsKnown) {
     const test::LensKind halfTurn{"Orthographic180", {RadialModel::orthographic}, 180};
-    for (const Wall& wall : {test::lensWall(halfTurn, {200, 200}), test::smallShippedWall("camera-texture", 5)}) {
+    for (const Wall& wall :
+         {test::lensWall(halfTurn, {200, 200}), test::smallShippedWall("camera-texture", 5)}) {
         const Told told = toldBeyondTheBorder(wall.displays[0], 0.75);
         EXPECT_GT(told.count, 100) << wall.name;
         EXPECT_EQ(told.nowhere, 0) << wall.name;
