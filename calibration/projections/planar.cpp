@@ -10,7 +10,7 @@
 namespace curvewall {
 
 // In sides of the screen. Matrices in single precision, which draw it, show nothing sensible from nearer.
-constexpr double kLeastEyeDistance = 1e-6;
+constexpr double kLeastEyeDistance = 1e-5;
 
 PlanarProjection::PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, glm::ivec2 sizePx)
     : screen_(screen), sizePx_(sizePx) {
@@ -23,7 +23,7 @@ PlanarProjection::PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, 
     const double eyeDistance = std::abs(glm::dot(glm::cross(right, up), corner)) / area;
     if (!(eyeDistance > kLeastEyeDistance * (glm::length(right) + glm::length(up))))
         throw UsageError(
-            "the eye lies in the plane of a planar screen, or nearer to it than a millionth of its sides");
+            "the eye lies in the plane of a planar screen, or nearer to it than 1/100,000 of its sides");
     rayFromPixel_ = {right / static_cast<double>(sizePx.x), -up / static_cast<double>(sizePx.y), corner};
     pixelFromRay_ = glm::inverse(rayFromPixel_);
 }

@@ -14,7 +14,7 @@ struct PlanarScreen {
 class PlanarProjection : public Projection {
 public:
     // Throws UsageError when the corners span no area, or the eye lies in the screen's plane or nearer to it
-    // than a millionth of its sides.
+    // than 1/100,000 of its sides.
     PlanarProjection(const PlanarScreen& screen, glm::dvec3 eyeM, glm::ivec2 sizePx);
 
     std::optional<glm::dvec3> unproject(glm::dvec2 px) const override;

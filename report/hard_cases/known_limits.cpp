@@ -68,14 +68,8 @@ const std::vector<KnownLimit>& knownLimits() {
          false},
         {"eye at a curved wall", "image-based", 1e-2,
          "Faces end at 4096 px, and the wall beside the eye is magnified more than these."},
-        {"eye at a flat screen", "piecewise", 1e-5,
-         "Single precision knows where a ray lands to 1e-7 of a field of view of "
-         "180 degrees: half a pixel at 1e-5 m."},
-        {"eye at a flat screen", "vertex-warp", 1e-5, "As piecewise."},
         {"eye at a flat screen", "image-based", 1e-2,
          "Faces end at 4096 px; what is seen beside the axis is magnified more than these."},
-        {"screen edge on", "piecewise", 1e-5, "As with the eye at a flat screen."},
-        {"screen edge on", "vertex-warp", 1e-5, "As with the eye at a flat screen."},
         {"screen edge on", "image-based", 1, "As with the eye at a flat screen."},
         {"folds of a measured map", "piecewise", 1e-4,
          "Facets that the eye sees nearly edge on lose single pixels to single precision: up to 20 on a "

@@ -130,7 +130,7 @@ std::vector<Degenerate> degenerates() {
                        kWidePx,
                        {0.1, 0.2, -1 + gapM}});
     }
-    for (const auto& [gap, gapM] : {Gap{"_1mm", 1e-3}, {"_100um", 1e-4}, {"_10um", 1e-5}}) {
+    for (const auto& [gap, gapM] : {Gap{"_1cm", 1e-2}, {"_1mm", 1e-3}, {"_100um", 1e-4}}) {
         all.push_back({std::string("EyeAtAFlatScreen") + gap, kFlatScreen, kWidePx, {0, 0, -1 + gapM}});
         all.push_back({std::string("FlatScreenEdgeOn") + gap, kFlatScreen, kWidePx, {3, 0.1, -1 + gapM}});
     }
