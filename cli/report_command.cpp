@@ -22,6 +22,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -33,8 +34,8 @@ constexpr int kQuickSuitePx = 128;
 
 struct ReportCommand {
     std::vector<std::string> walls;
-    std::string size, display, camera, eye, style = "textured", suite, out, references;
-    std::vector<std::string> scenes;
+    std::string size, camera, eye, style = "textured", suite, out, references;
+    std::vector<std::string> scenes, displays;
     double tolerancePx = kDefaultTolerancePx;
     int rounds = 3, frames = 3;
     bool isQuick = false;
@@ -49,6 +50,17 @@ void writeReport(const std::string& folder, const Document& document, const nloh
     fmt::print("{0}/report.html, {0}/report.md, {0}/report.json\n", folder);
 }
 
+// Those of the wall that have one of the names; all of them without names.
+std::vector<const Display*> namedDisplays(const Wall& wall, const std::vector<std::string>& names) {
+    std::vector<const Display*> displays = chosenDisplays(wall, "");
+    if (names.empty()) return displays;
+    std::erase_if(displays, [&](const Display* display) {
+        return std::ranges::find(names, display->name) == names.end();
+    });
+    if (displays.empty()) chosenDisplays(wall, names.front());  // says which there are
+    return displays;
+}
+
 std::vector<View> viewsOf(const ReportCommand& command) {
     std::vector<View> views;
     std::vector<ScenePtr> scenes;
@@ -61,7 +73,7 @@ std::vector<View> viewsOf(const ReportCommand& command) {
         logWarnings(*wall);
         if (!command.eye.empty())
             wall = std::make_shared<const Wall>(seenFrom(*wall, eyeFromText(command.eye)));
-        for (const Display* display : chosenDisplays(*wall, command.display))
+        for (const Display* display : namedDisplays(*wall, command.displays))
             for (size_t i = 0; i < scenes.size(); ++i) {
                 RenderRequest request;
                 request.wall = wall;
@@ -143,7 +155,8 @@ void addReportCommand(CLI::App& app) {
         "--scene", command->scenes,
         "A .gltf, .glb or .obj file, city[:triangles[:seed]] or room; may be given several times");
     report->add_option("--out", command->out, "Folder of the report, made where it is missing")->required();
-    report->add_option("--display", command->display, "Display of the wall; all of them without it");
+    report->add_option("--display", command->displays,
+                       "Display of the walls; all of them without it; may be given several times");
     report->add_option("--camera", command->camera,
                        "Pose of the wall in the scene, x,y,z[,yaw,pitch,roll] in metres and degrees");
     report->add_option("--eye", command->eye,
