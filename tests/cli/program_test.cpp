@@ -2,17 +2,16 @@
 
 #include "calibration/files/map_file.h"
 #include "renderer/image_file.h"
+#include "tests/cli/program_run.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -25,20 +24,10 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-struct Outcome {
-    int exitCode = -1;
-    std::string output;  // stdout and stderr
-};
+using test::Outcome;
 
 Outcome run(const std::string& environment, const std::string& arguments) {
-    const std::string command = environment + " '" CURVEWALL_EXECUTABLE "' " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    Outcome outcome;
-    char buffer[4096];
-    while (const size_t bytes = fread(buffer, 1, sizeof buffer, pipe)) outcome.output.append(buffer, bytes);
-    const int status = pclose(pipe);
-    outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return test::runProgram(arguments, environment);
 }
 
 json readJson(const std::string& path) {
