@@ -64,7 +64,8 @@ inline Scene boxRoom(glm::vec3 sizeM) {
     const glm::vec3 h = sizeM / 2.0f;
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.0f, 1.0f}) {
-            startMaterial(scene, plainMaterial(kBoxRoomColors[static_cast<size_t>(2 * axis + (side > 0))]));
+            startMaterial(scene,
+                          plainMaterial(kBoxRoomColors[2 * static_cast<size_t>(axis) + (side > 0 ? 1 : 0)]));
             const auto corner = [&](float right, float up) {
                 glm::vec3 p(0);
                 p[axis] = side * h[axis];

@@ -25,8 +25,9 @@ enum class Met { no, doubtful, yes };
 class SeenTriangle {
 public:
     explicit SeenTriangle(std::array<glm::dvec3, 3> corners) {
-        std::ranges::rotate(corners, std::ranges::min_element(
-                                         corners, {}, [](glm::dvec3 corner) { return glm::length(corner); }));
+        const auto nearest =
+            std::ranges::min_element(corners, {}, [](glm::dvec3 corner) { return glm::length(corner); });
+        std::rotate(corners.begin(), nearest, corners.end());
         for (size_t i = 0; i < 3; ++i) {
             const glm::dvec3 from = corners[i], to = corners[(i + 1) % 3];
             planes_[i] = glm::cross(from, to - from);

@@ -43,6 +43,7 @@ std::vector<Range> widened(const std::vector<Range>& ranges, size_t step, size_t
 // Of the numbers of a frame, each over its pixel and the eight around.
 std::vector<Range> rangesAround(const std::vector<int>& numbers, const Frame& frame, bool isClosed) {
     std::vector<Range> ranges;
+    ranges.reserve(numbers.size());
     for (const int number : numbers) ranges.push_back({number, number});
     const auto channels = static_cast<size_t>(frame.channels), width = static_cast<size_t>(frame.sizePx.x);
     ranges = widened(ranges, channels, width, isClosed);
