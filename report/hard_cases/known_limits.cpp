@@ -6,10 +6,13 @@ namespace curvewall {
 
 const std::vector<KnownLimit>& knownLimits() {
     static const std::vector<KnownLimit> limits{
-        {"pole crossing", "vertex-warp", 1e-2,
+        {"pole crossing", "vertex-warp", 0.1,
          "Beside a pole a part of a triangle spans a wide range of azimuths, and its straight edges sweep "
          "across them: "
          "up to 5 px, and single pixels open, on displays of some 100 px. On larger ones parts are smaller."},
+        {"behind the eye", "vertex-warp", 1e7,
+         "Parts are no finer than a millionth of a triangle, here 10 m: what is near the eye of a triangle "
+         "that goes so far stays open, 1 pixel in 7."},
         {"around the eye", "piecewise", 1e-3,
          "Corners are rounded to 1e-7 of their distance. Where the plane of a triangle is nearer to the eye "
          "than 1/5000 "
@@ -35,8 +38,6 @@ const std::vector<KnownLimit>& knownLimits() {
          "Parts thinner than the rasterizer's grid overlap where edges are divided: up to 1 pixel in 30 is "
          "covered "
          "twice, by the same surface."},
-        {"band of slivers", "vertex-warp", 1e5,
-         "Points shown in slivers of 1/1000 px are off by up to 0.7 px; the picture is right."},
         {"coplanar overlaps", "vertex-warp", 1e-4,
          "Depths are linear within a part, which is off by the square of its angle: surfaces nearer to one "
          "another "
