@@ -6,8 +6,9 @@
 namespace curvewall {
 namespace {
 
-// Positions come as floats, so that what is certified to keep a tolerance may seem to miss it by as much.
-constexpr double kFloatPx = 0.001;
+// Rasterizers put corners on a grid of 1/256 px, half a step off along both axes at most, so that what is
+// certified to keep a tolerance may show as much more.
+constexpr double kGridPx = 0.003;
 constexpr double kHardlyAPixel = 1e-5;  // of all
 
 double errorPx(const SettingResult* result) { return result->errors.geometric.maxPx; }
@@ -29,7 +30,7 @@ uint64_t faultyPixels(const SettingResult& result) {
 
 bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {
     const double pixels = static_cast<double>(sizePx.x) * sizePx.y;
-    return result.refusal.empty() && errorPx(&result) <= tolerancePx + kFloatPx &&
+    return result.refusal.empty() && errorPx(&result) <= tolerancePx + kGridPx &&
            static_cast<double>(faultyPixels(result)) <= kHardlyAPixel * pixels;
 }
 

@@ -103,7 +103,7 @@ TEST(Recommendation, NeverMissesATolerance) {
                 if (keeps(result, tolerancePx, view.sizePx)) {
                     ASSERT_NE(answer.best, nullptr);
                     EXPECT_LE(answer.best->frameMs.median, result.frameMs.median);
-                    EXPECT_LE(answer.best->errors.geometric.maxPx, tolerancePx + 0.001);
+                    EXPECT_LE(answer.best->errors.geometric.maxPx, tolerancePx + 0.003);
                 }
         }
 }
