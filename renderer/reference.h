@@ -24,8 +24,8 @@ public:
     struct Options {
         Style style = Style::textured;
         OutputKind output = OutputKind::color;
-        int samples = 1;  // rays per pixel: 1 casts the pixel centre, n a stratified, seeded pattern
-        int threads = 0;  // 0: all cores; the picture does not depend on it
+        int samples = 1;    // rays per pixel: 1 casts the pixel centre, n a stratified, seeded pattern
+        int threads = 0;    // 0: all cores; the picture does not depend on it
         uint64_t seed = 0;  // of the pattern, for pictures that are averaged
     };
     // Colour is mixed and averaged in linear light; the other outputs are of the pixel's centre. What blends

@@ -27,7 +27,7 @@ namespace {
 constexpr Supersampling kFullTruth{64, 4, 60};
 constexpr Supersampling kQuickTruth{16, 2, 60};
 
-enum class StepKind { truth, floor, errors, round };
+enum class StepKind { truth, floor, errors, round, pictures };
 
 struct Step {
     StepKind kind;
@@ -55,7 +55,7 @@ private:
         int count = 0;
     };
     // In the order of StepKind.
-    std::array<Kind, 4> kinds_{{{60'000}, {10'000}, {5'000}, {2'000}}};
+    std::array<Kind, 5> kinds_{{{60'000}, {10'000}, {5'000}, {2'000}, {1'000}}};
 };
 
 // Of an even number the median is between the middle two.
@@ -242,6 +242,15 @@ private:
     ViewReport report_;
 };
 
+// The same for all.
+std::string rendererNameOf(const SpeedReport& report) {
+    for (const ViewReport& view : report.views)
+        for (const SettingResult& result : view.settings)
+            if (result.refusal.empty() && result.setting.method != "reference")
+                return result.stats.value("gl_renderer", "");
+    return "";
+}
+
 }  // namespace
 
 SpeedReport measureSpeed(const MeasurementPlan& plan,
@@ -249,35 +258,27 @@ SpeedReport measureSpeed(const MeasurementPlan& plan,
     SpeedReport report;
     report.processor = processorName();
     report.tolerancePx = plan.tolerancePx;
-    StepClock clock;
-    // Pictures and pieces of one view at a time are in memory.
-    std::vector<std::vector<StepKind>> kinds;
+    std::vector<std::unique_ptr<ViewMeasurement>> measurements;
+    std::vector<Step> steps;  // of all views, one after the other
     for (const View& view : plan.views) {
-        kinds.emplace_back();
-        for (const Step& step : ViewMeasurement(view, plan).steps()) kinds.back().push_back(step.kind);
+        const auto& measurement = measurements.emplace_back(std::make_unique<ViewMeasurement>(view, plan));
+        for (Step& step : measurement->steps()) steps.push_back(std::move(step));
+        steps.push_back(
+            {StepKind::pictures, "pictures", [&report, &measurements, at = measurements.size() - 1] {
+                 report.views.push_back(measurements[at]->finish());
+                 measurements[at].reset();  // and its pictures and pieces
+                 return true;
+             }});
     }
-    MeasurementProgress progress;
-    for (const auto& ofView : kinds) progress.all += ofView.size();
-
-    for (size_t v = 0; v < plan.views.size(); ++v) {
-        ViewMeasurement measurement(plan.views[v], plan);
-        const std::vector<Step> steps = measurement.steps();
-        for (size_t s = 0; s < steps.size(); ++s) {
-            progress.doing = steps[s].doing;
-            progress.leftMs = 0;
-            for (size_t u = v; u < kinds.size(); ++u)
-                for (size_t t = u == v ? s : 0; t < kinds[u].size(); ++t)
-                    progress.leftMs += clock.expectedMs(kinds[u][t]);
-            advance(progress);
-            const Stopwatch watch;
-            if (steps[s].take()) clock.took(steps[s].kind, watch.ms());
-            ++progress.done;
-        }
-        report.views.push_back(measurement.finish());
-        for (const SettingResult& result : report.views.back().settings)
-            if (report.glRenderer.empty() && result.refusal.empty())
-                report.glRenderer = result.stats.value("gl_renderer", "");
+    StepClock clock;
+    for (size_t i = 0; i < steps.size(); ++i) {
+        double leftMs = 0;
+        for (size_t left = i; left < steps.size(); ++left) leftMs += clock.expectedMs(steps[left].kind);
+        advance({i, steps.size(), leftMs, steps[i].doing});
+        const Stopwatch watch;
+        if (steps[i].take()) clock.took(steps[i].kind, watch.ms());
     }
+    report.glRenderer = rendererNameOf(report);
     return report;
 }
 

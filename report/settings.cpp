@@ -1,10 +1,13 @@
 #include "report/settings.h"
 
+#include "calibration/pieces/pixel_rays.h"
+#include "renderer/cube_source.h"
 #include "renderer/names.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -30,9 +33,18 @@ constexpr auto kTurnSamples = [](RenderRequest& request, double samples) {
 };
 constexpr auto kNothing = [](RenderRequest&, double) {};
 
+// Around one texel a pixel: the power of two next to the size that image-based would take by itself.
+double usualFacePx(const RenderRequest& base) {
+    const Display& display = findDisplay(*base.wall, base.display);
+    PixelRays rays(*display.projection, display.sizePx);
+    rays.keep({});
+    return std::exp2(std::round(std::log2(cubeSource(rays, 0).faceSizePx)));
+}
+
 class Sweeps {
 public:
-    Sweeps(const RenderRequest& base, Extent extent) : base_(base), isFull_(extent == Extent::full) {}
+    Sweeps(const RenderRequest& base, Extent extent)
+        : base_(base), isFull_(extent == Extent::full), facePx_(usualFacePx(base)) {}
 
     std::vector<Sweep> all() {
         addPiecewise();
@@ -84,19 +96,20 @@ private:
     }
 
     void addImageBased() {
-        const std::vector<double> few{1024, 2048, 4096};
-        const std::vector<double> sizesPx = isFull_ ? std::vector<double>{512, 1024, 2048, 4096} : few;
-        addFaces(imageBased(SourceKind::cube, SourceFilter::nearest), "cube, nearest", sizesPx, 1024);
-        addFaces(imageBased(SourceKind::cube, SourceFilter::linear), "cube, linear", sizesPx, 2048);
-        addFaces(imageBased(SourceKind::planar, SourceFilter::linear), "planar, linear", few, 2048);
+        const std::vector<double> few{facePx_ / 2, facePx_, 2 * facePx_};
+        std::vector<double> sizesPx = few;
+        if (isFull_) sizesPx.insert(sizesPx.begin(), facePx_ / 4);
+        addFaces(imageBased(SourceKind::cube, SourceFilter::nearest), "cube, nearest", sizesPx, facePx_ / 2);
+        addFaces(imageBased(SourceKind::cube, SourceFilter::linear), "cube, linear", sizesPx, facePx_);
+        addFaces(imageBased(SourceKind::planar, SourceFilter::linear), "planar, linear", few, facePx_);
         if (!isFull_) return;
-        addFaces(imageBased(SourceKind::cube, SourceFilter::bicubic), "cube, bicubic", sizesPx, 2048);
+        addFaces(imageBased(SourceKind::cube, SourceFilter::bicubic), "cube, bicubic", sizesPx, facePx_);
         addFaces(imageBased(SourceKind::cube, SourceFilter::mipmap), "cube, mipmap", few);
         addFaces(imageBased(SourceKind::cube, SourceFilter::anisotropic), "cube, anisotropic", few);
         addFaces(imageBased(SourceKind::hemicube, SourceFilter::linear), "hemicube, linear", few);
         RenderRequest layered = imageBased(SourceKind::cube, SourceFilter::linear);
         layered.facePass = FacePass::layered;
-        addFaces(layered, "cube, linear, layered", {1024, 2048});
+        addFaces(layered, "cube, linear, layered", {facePx_ / 2, facePx_});
         RenderRequest mesh = imageBased(SourceKind::cube, SourceFilter::linear);
         mesh.lookup = SourceLookup::mesh;
         addFaces(mesh, fmt::format("cube, linear, mesh of {} px", mesh.meshStepPx), few);
@@ -132,8 +145,9 @@ private:
         sweeps_.push_back(
             {pieces, fmt::format("{:g} px", pieces.tolerancePx), "samples", kTurnSamples, samples});
         RenderRequest faces = imageBased(SourceKind::cube, SourceFilter::linear);
-        faces.faceSizePx = 2048;
-        sweeps_.push_back({faces, "cube, linear, 2048 px", "samples", kTurnSamples, samples});
+        faces.faceSizePx = static_cast<int>(facePx_);
+        sweeps_.push_back(
+            {faces, fmt::format("cube, linear, {} px", faces.faceSizePx), "samples", kTurnSamples, samples});
         sweeps_.push_back({of(Method::boundedRaycast), "triangle", "samples", kTurnSamples, samples});
         RenderRequest warp = of(Method::vertexWarp);
         warp.tessellationPx = 8;
@@ -142,6 +156,7 @@ private:
 
     const RenderRequest& base_;
     bool isFull_;
+    double facePx_;
     std::vector<Sweep> sweeps_;
 };
 

@@ -17,9 +17,9 @@ constexpr double kPi = test::kPi;
 
 Wall fisheyeWall(double fovDeg, glm::ivec2 sizePx) {
     const RadialFunction equidistant{RadialModel::equidistant, {}};
-    return wallOf(std::make_shared<LensProjection>(
-                            circularLens(equidistant, fovDeg * kPi / 180, sizePx), Orientation{}),
-                        sizePx);
+    return wallOf(std::make_shared<LensProjection>(circularLens(equidistant, fovDeg * kPi / 180, sizePx),
+                                                   Orientation{}),
+                  sizePx);
 }
 
 TEST(DisplayFacts, OfAPlaneAreThoseOfItsFormulas) {
