@@ -46,7 +46,8 @@ void writeReport(const std::string& folder, const Document& document, const nloh
     writePlots(document, folder);
     writeTextFile(folder + "/report.html", htmlOf(document, folder));
     writeTextFile(folder + "/report.md", markdownOf(document));
-    writeTextFile(folder + "/report.json", json.dump(2) + "\n");
+    writeTextFile(folder + "/report.json",
+                  json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     fmt::print("{0}/report.html, {0}/report.md, {0}/report.json\n", folder);
 }
 
@@ -90,11 +91,20 @@ std::vector<View> viewsOf(const ReportCommand& command) {
     return views;
 }
 
+// A name that no wall has is a mistake, though those of others are there.
+void requireKnown(const std::vector<std::string>& displays, const std::vector<View>& views) {
+    for (const std::string& name : displays)
+        if (std::ranges::none_of(views, [&](const View& view) { return view.request.display == name; }))
+            throw UsageError("--display: no wall has a display \"" + name + "\"");
+}
+
 void reportSpeed(const ReportCommand& command) {
     if (command.walls.empty()) throw UsageError("report needs a WALL, or --suite hard-cases");
     if (command.scenes.empty()) throw UsageError("report needs a --scene");
     MeasurementPlan plan;
     plan.views = viewsOf(command);
+    requireKnown(command.displays, plan.views);
+    makeFolder(command.out);
     plan.tolerancePx = command.tolerancePx;
     plan.extent = command.isQuick ? Extent::quick : Extent::full;
     plan.rounds = command.rounds;
@@ -114,6 +124,7 @@ void reportSpeed(const ReportCommand& command) {
 void reportHardCases(const ReportCommand& command) {
     if (!command.walls.empty() || !command.scenes.empty())
         throw UsageError("--suite hard-cases brings its own walls and scenes");
+    makeFolder(command.out);
     SuiteOptions options;
     options.folder = command.out;
     if (command.isQuick) options.sizePx = kQuickSuitePx;
@@ -134,7 +145,6 @@ void reportHardCases(const ReportCommand& command) {
 }
 
 void run(const ReportCommand& command) {
-    makeFolder(command.out);
     if (command.suite.empty()) return reportSpeed(command);
     reportHardCases(command);
 }

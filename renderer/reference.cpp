@@ -10,6 +10,7 @@
 #include "renderer/shading.h"
 #include "renderer/texture_filter.h"
 
+#include <fmt/core.h>
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -23,6 +24,9 @@ namespace {
 
 // Every method cuts what is nearer than this share of the distance to the wall.
 constexpr double kNearShareOfWall = 1e-5;
+
+// Embree ends the program where squares of distances overflow.
+constexpr double kFarthestEyeM = 1e15;
 
 // One display seen from one camera.
 struct View {
@@ -351,12 +355,18 @@ ReferenceRenderer& ReferenceRenderer::operator=(ReferenceRenderer&&) noexcept = 
 Frame ReferenceRenderer::render(const Wall& wall, const Display& display, const Camera& camera,
                                 const Options& options) const {
     if (options.samples < 1) throw UsageError("the reference needs at least one sample a pixel");
+    const glm::dvec3 eyeM = eyeInScene(camera, wall.eyeM) - impl_->scene->originM;
+    if (!(glm::length(eyeM) <= kFarthestEyeM))
+        throw UsageError(
+            fmt::format("the reference sees scenes from at most {:g} m away, and this eye is {:g} m "
+                        "from the scene's origin",
+                        kFarthestEyeM, glm::length(eyeM)));
     const bool isColor = options.output == OutputKind::color;
     std::optional<EdgeStrokes> edges;
     if (drawsEdges(options.style, options.output)) edges.emplace(*impl_->scene, options.style);
     View view{*display.projection,
               rotationFromOrientation(camera.orientation),
-              eyeInScene(camera, wall.eyeM) - impl_->scene->originM,
+              eyeM,
               isColor ? 1 / std::sqrt(options.samples) : 1.0,
               options.style,
               edges ? &*edges : nullptr};

@@ -1,6 +1,7 @@
 #include "report/content_key.h"
 
 #include "calibration/pieces/pixel_rays.h"
+#include "report/machine.h"
 
 #include <filesystem>
 #include <fstream>
@@ -82,6 +83,7 @@ std::string keyOfThisProgram() {
 std::string keyOfView(const RenderRequest& request) {
     ContentKey key;
     key.add(keyOfThisProgram());
+    key.add(processorName());
     addScene(key, *request.scene);
     addDisplay(key, findDisplay(*request.wall, request.display));
     addVector(key, request.wall->eyeM);

@@ -35,8 +35,8 @@ private:
 std::string keyOfThisProgram();
 
 // Of what a frame of the request shows, whatever draws it: the scene's triangles, materials and texels, the
-// rays of all pixels, blend maps, background, camera and style; and of this program, since another version
-// may draw it otherwise.
+// rays of all pixels, blend maps, background, camera and style; of this program, since another version may
+// draw it otherwise; and of the processor, since times are of one machine.
 std::string keyOfView(const RenderRequest& request);
 
 }  // namespace curvewall

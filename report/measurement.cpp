@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -125,8 +126,8 @@ private:
         return fmt::format("{}/measured/{}-{}.json", plan_.folder, key_.substr(0, kShortKey), what);
     }
     std::string keyOfErrors(size_t i) const {
-        return fmt::format("{}-{}", plan_.extent == Extent::full ? "full" : "quick",
-                           keyOf(settings_[i].name));
+        return fmt::format("{}-{:g}-px-{}-frames-{}", plan_.extent == Extent::full ? "full" : "quick",
+                           view_.request.tolerancePx, plan_.frames, keyOf(settings_[i].name));
     }
 
     bool traceTruth() {
@@ -147,10 +148,12 @@ private:
         }
         const std::vector<RenderRequest> windows = flatWindows(view_.request);
         std::vector<KnownTruth> truths;
+        truths.reserve(windows.size());
         for (const RenderRequest& window : windows)
             truths.push_back(keptTruth(window, keyOfView(window), supersampling(), plan_.references));
         for (const int samples : plan_.extent == Extent::full ? std::vector{1, 4, 16} : std::vector{1})
-            report_.floors.push_back(samplingFloor(renderer_, windows, truths, flat_, samples));
+            if (const auto floor = samplingFloor(renderer_, windows, truths, flat_, samples))
+                report_.floors.push_back(*floor);
         keepJson(path, report_.floors);
         return true;
     }
@@ -165,10 +168,16 @@ private:
         return request;
     }
 
+    bool hasItsPictures(const SettingResult& result) const {
+        return std::ranges::all_of(std::array{result.picture, result.errorMap}, [&](const std::string& file) {
+            return file.empty() || std::filesystem::exists(plan_.folder + "/" + file);
+        });
+    }
+
     bool findErrors(size_t i) {
         SettingResult& result = report_.settings[i];
         const std::string path = pathOf(keyOfErrors(i));
-        if (const auto kept = keptValue<SettingResult>(path)) {
+        if (const auto kept = keptValue<SettingResult>(path); kept && hasItsPictures(*kept)) {
             result = *kept;
             return false;
         }

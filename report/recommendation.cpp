@@ -22,6 +22,13 @@ const SettingResult* fastest(const std::vector<const SettingResult*>& results, d
     return best;
 }
 
+// What even exact rays show aside: where lines are drawn as wide as pixels, their points lie in the middle.
+double errorOfTruthPx(const ViewReport& view) {
+    for (const SettingResult& result : view.settings)
+        if (result.setting.method == "reference" && result.refusal.empty()) return errorPx(&result);
+    return 0;
+}
+
 }  // namespace
 
 uint64_t faultyPixels(const SettingResult& result) {
@@ -34,7 +41,8 @@ bool keeps(const SettingResult& result, double tolerancePx, glm::ivec2 sizePx) {
            static_cast<double>(faultyPixels(result)) <= kHardlyAPixel * pixels;
 }
 
-Recommendation recommend(const ViewReport& view, double tolerancePx) {
+Recommendation recommend(const ViewReport& view, double askedPx) {
+    const double ownPx = errorOfTruthPx(view), tolerancePx = askedPx + ownPx;
     std::vector<std::string> methods;
     std::map<std::string, std::vector<const SettingResult*>> drawn;
     std::vector<const SettingResult*> all;
@@ -48,7 +56,7 @@ Recommendation recommend(const ViewReport& view, double tolerancePx) {
     }
     Recommendation answer;
     answer.best = fastest(all, tolerancePx, view.sizePx);
-    answer.halfError = fastest(all, tolerancePx / 2, view.sizePx);
+    answer.halfError = fastest(all, askedPx / 2 + ownPx, view.sizePx);
     for (const std::string& method : methods) {
         const std::vector<const SettingResult*>& results = drawn[method];
         if (results.empty()) {

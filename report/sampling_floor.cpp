@@ -78,8 +78,9 @@ std::vector<RenderRequest> flatWindows(const RenderRequest& view) {
     return windows;
 }
 
-SamplingFloor samplingFloor(Renderer& renderer, const std::vector<RenderRequest>& windows,
-                            const std::vector<KnownTruth>& truths, const ScenePtr& flat, int samples) {
+std::optional<SamplingFloor> samplingFloor(Renderer& renderer, const std::vector<RenderRequest>& windows,
+                                           const std::vector<KnownTruth>& truths, const ScenePtr& flat,
+                                           int samples) {
     SamplingFloor floor{samples, 0, 0, 0, 0};
     double pixels = 0, off = 0, edgesOff = 0, squares = 0, supersampledSquares = 0;
     for (size_t i = 0; i < windows.size(); ++i) {
@@ -95,7 +96,7 @@ SamplingFloor samplingFloor(Renderer& renderer, const std::vector<RenderRequest>
         squares += count * meanSquare(image.psnrDb);
         supersampledSquares += count * meanSquare(compareColor(drawn, truth.supersampled).psnrDb);
     }
-    if (pixels == 0) return floor;
+    if (pixels == 0) return std::nullopt;
     floor.shareOff = off / pixels;
     floor.edgesOff = edgesOff / pixels;
     floor.psnrDb = decibel(squares / pixels);

@@ -3,6 +3,7 @@
 
 #include "report/truth.h"
 
+#include <optional>
 #include <vector>
 
 namespace curvewall {
@@ -13,7 +14,9 @@ namespace curvewall {
 std::vector<RenderRequest> flatWindows(const RenderRequest& view);
 
 // Over all windows, for pictures of so many samples a pixel. `flat` is their scene in flat colours.
-SamplingFloor samplingFloor(Renderer& renderer, const std::vector<RenderRequest>& windows,
-                            const std::vector<KnownTruth>& truths, const ScenePtr& flat, int samples);
+// Nothing where there are no windows.
+std::optional<SamplingFloor> samplingFloor(Renderer& renderer, const std::vector<RenderRequest>& windows,
+                                           const std::vector<KnownTruth>& truths, const ScenePtr& flat,
+                                           int samples);
 
 }  // namespace curvewall

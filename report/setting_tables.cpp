@@ -57,9 +57,9 @@ std::string madeOfText(const SettingResult& result) {
 
 Table settingsTable(const ViewReport& view, const SettingResult* best) {
     Table table{{"setting", "ms", "ms, rounds", "largest error, px", "99 in 100, px", "wrong pixels, %",
-                 "wrong edges, %", "PSNR, dB", "SSIM", "faulty pixels",
+                 "wrong edges, %", "PSNR, dB", "SSIM", "wrongly covered", "misplaced",
                  fmt::format("PSNR of {} rays, dB", view.truth.supersamples), "made of", "pairs",
-                 "overdraw, %", "on the GPU, MiB", "peak, MiB"},
+                 "overdraw, %", "on the GPU, MiB"},
                 {}};
     for (const SettingResult& result : view.settings) {
         if (!result.refusal.empty()) continue;
@@ -70,9 +70,9 @@ Table settingsTable(const ViewReport& view, const SettingResult* best) {
              measureText(errors.geometric.maxPx), measureText(errors.geometric.p99Px),
              percentText(errors.image.shareOff), result.edges ? percentText(result.edges->shareOff) : kNone,
              decibelText(errors.image.psnrDb), fmt::format("{:.4f}", errors.image.ssim),
-             countText(faultyPixels(result)), decibelText(errors.supersampledPsnrDb), madeOfText(result),
-             countAt(result.stats, "pairs"), measureOr(100 * numberAt(result.stats, "overdraw")),
-             measureOr(gpuMemoryMib(result)), measureOr(numberAt(result.stats, "peak_memory_mib"))});
+             countText(coverageFaults(result)), countText(errors.misplacedPixels),
+             decibelText(errors.supersampledPsnrDb), madeOfText(result), countAt(result.stats, "pairs"),
+             measureOr(100 * numberAt(result.stats, "overdraw")), measureOr(gpuMemoryMib(result))});
     }
     return table;
 }

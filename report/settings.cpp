@@ -33,12 +33,14 @@ constexpr auto kTurnSamples = [](RenderRequest& request, double samples) {
 };
 constexpr auto kNothing = [](RenderRequest&, double) {};
 
-// Around one texel a pixel: the power of two next to the size that image-based would take by itself.
+// Around one texel a pixel: the power of two next to the size that image-based would take by itself, as far
+// as a quarter and twice of it are sizes that faces may have.
 double usualFacePx(const RenderRequest& base) {
     const Display& display = findDisplay(*base.wall, base.display);
     PixelRays rays(*display.projection, display.sizePx);
     rays.keep({});
-    return std::exp2(std::round(std::log2(cubeSource(rays, 0).faceSizePx)));
+    const double nearest = std::exp2(std::round(std::log2(cubeSource(rays, 0).faceSizePx)));
+    return std::clamp(nearest, 4.0 * kLeastFacePx, 0.5 * kMostAutomaticFacePx);
 }
 
 class Sweeps {
@@ -72,11 +74,8 @@ private:
         sweeps_.push_back({of(Method::piecewise), "", "tolerance_px", kTurnTolerance, tolerances, usual});
         if (!isFull_) return;
         for (const Engine engine : {Engine::geometry, Engine::tessellation, Engine::loop}) {
-            Sweep sweep{of(Method::piecewise),
-                        fmt::format("{} engine", nameOf(engine)),
-                        "tolerance_px",
-                        kTurnTolerance,
-                        {1, usual}};
+            Sweep sweep{of(Method::piecewise), fmt::format("{} engine", nameOf(engine)), "tolerance_px",
+                        kTurnTolerance, usual == 1 ? std::vector{usual} : std::vector{1, usual}};
             sweep.request.engine = engine;
             sweeps_.push_back(sweep);
         }

@@ -22,15 +22,14 @@ std::string truthText(const SpeedReport& report) {
     int fewest = 0;
     double noisiest = 0;
     for (const ViewReport& view : report.views) {
-        if (fewest == 0 || view.truth.supersamples < fewest) {
-            fewest = view.truth.supersamples;
-            noisiest = view.truth.noiseDb;
-        }
-        noisiest = std::min(noisiest, view.truth.noiseDb);
+        const bool isFirst = fewest == 0;
+        fewest = isFirst ? view.truth.supersamples : std::min(fewest, view.truth.supersamples);
+        noisiest = isFirst ? view.truth.noiseDb : std::min(noisiest, view.truth.noiseDb);
     }
     return fmt::format(
-        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel, whose own noise is {} dB. "
-        "Beyond that, differences say nothing. It rewards blur, so that it decides nothing here.",
+        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel or more, whose own noise is {} dB "
+        "or "
+        "less. Beyond that, differences say nothing. It rewards blur, so that it decides nothing here.",
         fewest, decibelText(noisiest));
 }
 
@@ -39,8 +38,8 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
     List words;
     const auto say = [&words](std::string text) { words.items.push_back(std::move(text)); };
     say("Geometric error: how many pixels away from its place a thing is shown. The largest of all pixels "
-        "counts. Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn, in "
-        "floats, which may add a thousandth of a pixel.");
+        "counts. Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn: the "
+        "rasterizer puts corners on a grid of 1/256 px, which may add 0.003 px and is allowed for.");
     say("Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
         "truth, one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. "
         "Of several samples a pixel the supersampled picture is the truth.");
@@ -51,17 +50,20 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
         "twice. With pixels that show what is not on the display, and those without a number, these are "
         "the faulty pixels.");
     say("Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
-        "textures in another way than traced rays. No method can be expected to come below.");
+        "textures in another way than traced rays. It is estimated in a few small flat windows, so that a "
+        "method "
+        "may come somewhat below.");
     say(truthText(report));
     say("Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. "
         "Reading back and writing files are not in it.");
     say("Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; "
         "the reference, which the others are judged by, takes no part.");
     blocks.emplace_back(std::move(words));
-    blocks.emplace_back(Paragraph{fmt::format(
-        "Measured with `{}` on {}. Errors are the same everywhere; times are those of this machine.",
-        report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,
-        report.processor.empty() ? "an unnamed processor" : report.processor)});
+    blocks.emplace_back(
+        Paragraph{fmt::format("Measured with `{}` on {}. Errors are the same wherever this driver runs; "
+                              "times are those of this machine.",
+                              report.glRenderer.empty() ? "no OpenGL" : report.glRenderer,
+                              report.processor.empty() ? "an unnamed processor" : report.processor)});
 }
 
 Table floorTable(const ViewReport& view) {

@@ -1,5 +1,6 @@
 #include "report/truth.h"
 
+#include "calibration/errors.h"
 #include "renderer/blending.h"
 #include "renderer/image_file.h"
 #include "renderer/reference.h"
@@ -110,8 +111,12 @@ KnownTruth keptTruth(const RenderRequest& request, const std::string& viewKey,
     KnownTruth truth;
     if (const auto facts = keptValue<TruthFacts>(factsPath)) {
         truth.facts = *facts;
-        for (const KeptPicture& kept : kPictures) truth.pictures.*kept.picture = readFrame(pathOf(kept));
-        return truth;
+        try {
+            for (const KeptPicture& kept : kPictures) truth.pictures.*kept.picture = readFrame(pathOf(kept));
+            return truth;
+        } catch (const InputError&) {
+            // A picture is lost or cut: traced again.
+        }
     }
     truth = traceTruth(request, supersampling);
     std::filesystem::create_directories(folder);

@@ -14,7 +14,7 @@ constexpr int kCropFactor = 4;
 constexpr int kTruthWidthPx = 1024;  // in the page, where it says what one looks at
 
 std::string written(const Frame& frame, const std::string& folder, const std::string& name) {
-    const std::string file = "pictures/" + name + ".png";
+    std::string file = "pictures/" + name + ".png";
     std::filesystem::create_directories(folder + "/pictures");
     writeFrame(folder + "/" + file, frame);
     return file;

@@ -1,5 +1,6 @@
 #pragma once
-// Where methods are known to break: what is not here is fine, and tests see that both stays true.
+// Where methods are known to break. What is not here is fine; tests see that both stays true on small
+// displays.
 
 #include "report/hard_cases/family.h"
 #include "report/hard_cases/results.h"

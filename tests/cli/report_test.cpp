@@ -75,9 +75,11 @@ TEST_F(ReportProgram, SaysWhatItNeeds) {
     EXPECT_THAT(messageOf(""), HasSubstr("report needs a WALL, or --suite hard-cases"));
     EXPECT_THAT(messageOf(wall_), HasSubstr("report needs a --scene"));
     EXPECT_THAT(messageOf(wall_ + " --scene room --display middle"), HasSubstr("left"));
+    EXPECT_THAT(messageOf(wall_ + " --scene room --display left --display rigth"), HasSubstr("rigth"));
     EXPECT_THAT(messageOf(wall_ + " --scene room --suite hard-cases"), HasSubstr("its own walls"));
     EXPECT_THAT(messageOf("--suite soft-cases"), HasSubstr("hard-cases"));
     EXPECT_THAT(messageOf(wall_ + " --scene room --rounds 0"), HasSubstr("--rounds"));
+    EXPECT_FALSE(std::filesystem::exists(file("out")));
 }
 
 TEST_F(ReportProgram, BadInputIsNamed) {

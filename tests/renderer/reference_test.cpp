@@ -3,8 +3,10 @@
 #include "calibration/errors.h"
 #include "renderer/image_file.h"
 #include "renderer/shading.h"
+#include "tests/support/rendering.h"
 #include "tests/support/test_projections.h"
 #include "tests/support/test_scenes.h"
+#include "tests/support/test_walls.h"
 
 #include <glm/gtc/constants.hpp>
 #include <gmock/gmock.h>
@@ -108,6 +110,16 @@ TEST(Reference, AThousandKilometresAwayNothingChanges) {
 }
 
 // Embree traces floats; the distance is exact all the same.
+TEST(Reference, EyesBeyondAnyNumberOfUseAreRefused) {
+    RenderRequest request = test::requestFor(planarWall({8, 8}, 90), boxRoom({8, 5, 6}));
+    for (const double farM : {1e19, 1e200}) {
+        request.camera.positionM.x = farM;
+        EXPECT_THROW(test::referenceOf(request), UsageError);
+    }
+    request.camera.positionM.x = 1e14;
+    EXPECT_NO_THROW(test::referenceOf(request));
+}
+
 TEST(Reference, AKilometreFromTheOriginDistancesStayExact) {
     Scene scene;
     startMaterial(scene, plainMaterial(glm::vec3(1)));

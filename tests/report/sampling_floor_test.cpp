@@ -54,6 +54,11 @@ TEST(FlatWindows, AreNeverWiderThanFlatPicturesAreGoodFor) {
     }
 }
 
+TEST(FlatWindows, ThereIsNoFloorWithoutThem) {
+    Renderer renderer;
+    EXPECT_FALSE(samplingFloor(renderer, {}, {}, roomOnADome().scene, 1).has_value());
+}
+
 class SamplingFloors : public test::GlTest {};
 
 TEST_F(SamplingFloors, OfFlatColoursIsNothingAtOneSample) {
@@ -62,8 +67,8 @@ TEST_F(SamplingFloors, OfFlatColoursIsNothingAtOneSample) {
     for (const RenderRequest& window : windows) truths.push_back(traceTruth(window, {16, 1, 60}));
     const ScenePtr flat = flatScene(*windows[0].scene);
     Renderer renderer;
-    const SamplingFloor one = samplingFloor(renderer, windows, truths, flat, 1);
-    const SamplingFloor four = samplingFloor(renderer, windows, truths, flat, 4);
+    const SamplingFloor one = samplingFloor(renderer, windows, truths, flat, 1).value();
+    const SamplingFloor four = samplingFloor(renderer, windows, truths, flat, 4).value();
     EXPECT_LT(one.shareOff, 1e-4);
     EXPECT_EQ(one.edgesOff, one.shareOff);
     EXPECT_GT(four.supersampledPsnrDb, one.supersampledPsnrDb + 3);

@@ -30,8 +30,27 @@ std::set<std::string> textsOf(Extent extent) {
 }
 
 TEST(Settings, EachHasATextOfItsOwn) {
-    for (const Extent extent : {Extent::quick, Extent::full})
-        EXPECT_EQ(textsOf(extent).size(), settingsFor(base(), extent).size());
+    for (const double tolerancePx : {0.3, 0.25, 1.0})
+        for (const Extent extent : {Extent::quick, Extent::full}) {
+            RenderRequest request = base();
+            request.tolerancePx = tolerancePx;
+            std::set<std::string> texts;
+            for (const Setting& setting : settingsFor(request, extent))
+                EXPECT_TRUE(texts.insert(setting.name.text()).second) << setting.name.text();
+        }
+}
+
+TEST(Settings, FacesHaveSizesThatCanBeAskedFor) {
+    for (const char* wall : {"dome-master", "full-cylinder"})
+        for (const int divisor : {1, 32, 256}) {
+            RenderRequest request = base();
+            request.wall = std::make_shared<const Wall>(test::smallShippedWall(wall, divisor));
+            for (const Setting& setting : settingsFor(request, Extent::full))
+                if (setting.name.knob == "face_size_px") {
+                    EXPECT_GE(setting.name.value, kLeastFacePx);
+                    EXPECT_LE(setting.name.value, kMostAutomaticFacePx);
+                }
+        }
 }
 
 TEST(Settings, TurnEveryKnobOfEveryMethod) {

@@ -109,5 +109,23 @@ TEST(Truth, IsTracedAgainWhereItWasCutOff) {
     EXPECT_EQ(keptTruth(request, key, {4, 1, 200}, folder.path()).facts.supersamples, 8);
 }
 
+TEST(Truth, IsTracedAgainWhereAPictureIsLostOrCut) {
+    const RenderRequest request = roomOnADome();
+    const std::string key = keyOfView(request);
+    for (const bool isLost : {true, false}) {
+        const test::TemporaryFolder folder;
+        const Frame wanted = keptTruth(request, key, {4, 1, 200}, folder.path()).pictures.supersampled;
+        std::string picture;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+            if (entry.path().string().ends_with("-supersampled.exr")) picture = entry.path().string();
+        if (isLost)
+            std::filesystem::remove(picture);
+        else
+            std::filesystem::resize_file(picture, 100);
+        EXPECT_TRUE(
+            areSameBits(keptTruth(request, key, {4, 1, 200}, folder.path()).pictures.supersampled, wanted));
+    }
+}
+
 }  // namespace
 }  // namespace curvewall
