@@ -111,7 +111,7 @@ TEST(Reference, AThousandKilometresAwayNothingChanges) {
 
 // Embree traces floats; the distance is exact all the same.
 TEST(Reference, EyesBeyondAnyNumberOfUseAreRefused) {
-    RenderRequest request = test::requestFor(planarWall({8, 8}, 90), boxRoom({8, 5, 6}));
+    RenderRequest request = test::requestFor(test::planarWall({8, 8}, 90), boxRoom({8, 5, 6}));
     for (const double farM : {1e19, 1e200}) {
         request.camera.positionM.x = farM;
         EXPECT_THROW(test::referenceOf(request), UsageError);
