@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstdio>
 #include <unistd.h>
 
@@ -12,9 +13,9 @@ constexpr int kMarks = 20;
 constexpr std::chrono::seconds kBetweenLines{10};
 
 std::string durationText(double ms) {
-    const auto seconds = static_cast<long>(ms / 1000 + 0.5);
+    const long seconds = std::lround(ms / 1000);
     if (seconds < 90) return fmt::format("{} s", seconds);
-    if (seconds < 90 * 60) return fmt::format("{} min", (seconds + 30) / 60);
+    if (seconds < 90L * 60) return fmt::format("{} min", (seconds + 30) / 60);
     return fmt::format("{} h {} min", seconds / 3600, seconds % 3600 / 60);
 }
 
