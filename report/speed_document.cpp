@@ -27,9 +27,11 @@ std::string truthText(const SpeedReport& report) {
         noisiest = isFirst ? view.truth.noiseDb : std::min(noisiest, view.truth.noiseDb);
     }
     return fmt::format(
-        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel or more, whose own noise is {} dB "
-        "or "
-        "less. Beyond that, differences say nothing. It rewards blur, so that it decides nothing here.",
+        "Supersampled PSNR: likeness to a picture of {} exact rays a pixel or more, whose own noise leaves "
+        "it "
+        "at {} dB or better. Beyond that, differences say nothing. It rewards blur, so that it decides "
+        "nothing "
+        "here.",
         fewest, decibelText(noisiest));
 }
 
