@@ -1,5 +1,6 @@
 #include "renderer/method_choice.h"
 
+#include "calibration/angles.h"
 #include "calibration/errors.h"
 #include "calibration/pieces/piece_fit.h"
 #include "renderer/cube_source.h"
@@ -48,10 +49,6 @@ constexpr Costs kImageCosts{10, 0, 300, 4, 30};
 constexpr Costs kTriangleBoundCosts{15, 4500, 0, 21, 0};
 constexpr Costs kQuadBoundCosts{5, 3500, 0, 45, 0};
 constexpr Costs kWarpCosts{35, 1500, 250, 2, 0};
-
-double angleBetween(glm::dvec3 a, glm::dvec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 // Of all pieces, as they are seen from the eye, in mean pixels.
 double perimetersPx(const Facts& facts) {

@@ -1,5 +1,6 @@
 #include "renderer/projected_strokes.h"
 
+#include "calibration/angles.h"
 #include "calibration/parallel.h"
 #include "renderer/strokes.h"
 
@@ -26,10 +27,6 @@ constexpr double kMarginPx = 0.5 * (kPointSizePx > kLineWidthPx ? kPointSizePx :
 
 double radiusPx(const Scene& scene, uint32_t stroke) {
     return 0.5 * (stroke < scene.points.size() ? kPointSizePx : kLineWidthPx);
-}
-
-double angleBetween(glm::dvec3 a, glm::dvec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 // The share of the way from a to b that is nearest to p.

@@ -1,5 +1,7 @@
 #include "renderer/scene_facts.h"
 
+#include "calibration/angles.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -17,10 +19,6 @@ double solidAngleOf(const Corners& units) {
     const auto& [a, b, c] = units;
     const double volume = std::abs(glm::dot(a, glm::cross(b, c)));
     return 2 * std::atan2(volume, 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
-}
-
-double angleBetween(glm::dvec3 a, glm::dvec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 // The share of some places on a triangle that the cone holds.

@@ -13,13 +13,6 @@
 namespace curvewall {
 namespace {
 
-bool isClosed(const Display& display) {
-    const double middle = 0.5 * display.sizePx.y;
-    const auto left = display.projection->unproject({0, middle});
-    const auto right = display.projection->unproject({display.sizePx.x, middle});
-    return left && right && glm::distance(glm::normalize(*left), glm::normalize(*right)) < 1e-9;
-}
-
 // How the ray of a display changes from px, per pixel of the step.
 std::optional<glm::dvec3> changeAlong(const Display& display, glm::dvec2 px, glm::dvec3 seen,
                                       glm::dvec2 step) {
@@ -39,7 +32,8 @@ glm::dvec2 offsetThatChanges(glm::dvec3 change, glm::dvec3 perColumn, glm::dvec3
 
 }  // namespace
 
-PixelDistance::PixelDistance(const Display& display) : display_(display), isClosed_(isClosed(display)) {}
+PixelDistance::PixelDistance(const Display& display)
+    : display_(display), isClosed_(closesOnItself(display)) {}
 
 std::optional<double> PixelDistance::from(glm::dvec2 px, glm::dvec3 ray) const {
     std::optional<double> least;

@@ -49,14 +49,11 @@ constexpr std::array kNamedStyles{
     NamedStyle{"image-based, cube, mipmap", kOrange, diamond},
     NamedStyle{"image-based, cube, anisotropic", kOrange, openDiamond},
     NamedStyle{"image-based, planar", kOrange, triangle},
-    NamedStyle{"image-based, planar, bicubic", kOrange, openTriangle},
     NamedStyle{"image-based, hemicube", kOrange, pentagon},
-    NamedStyle{"image-based, hemicube, bicubic", kOrange, openPentagon},
     NamedStyle{"bounded-raycast", kGreen, triangle},
     NamedStyle{"bounded-raycast, quad", kGreen, openDiamond},
     NamedStyle{"vertex-warp", kPurple, triangleDown},
     NamedStyle{"reference", kGrey, pentagon},
-    NamedStyle{"auto", kGrey, openCircle},
 };
 
 constexpr std::array kOtherColors{kOrange, kSkyBlue, kGreen, kPurple, kVermilion, kBlue, kGrey};

@@ -51,9 +51,7 @@ std::string dataUri(const std::string& folder, const std::string& file) {
     if (!in.is_open() || bytes.empty())
         throw std::runtime_error(path.string() + ": a picture of the report cannot be read" +
                                  (errno ? std::string(": ") + std::strerror(errno) : ""));
-    const std::string extension = path.extension().string();
-    return std::string("data:image/") + (extension == ".png" ? "png" : "jpeg") + ";base64," +
-           OIIO::Strutil::base64_encode(bytes);
+    return "data:image/png;base64," + OIIO::Strutil::base64_encode(bytes);
 }
 
 bool isNumber(const std::string& cell) {

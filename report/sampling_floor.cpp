@@ -1,5 +1,6 @@
 #include "report/sampling_floor.h"
 
+#include "calibration/angles.h"
 #include "calibration/pieces/pixel_rays.h"
 #include "calibration/projections/planar.h"
 #include "report/flat_scene.h"
@@ -18,10 +19,6 @@ constexpr double kMostHalfAngleRad = std::numbers::pi / 5;  // flat pictures gro
 
 // Where windows are, as shares of the display's width and height.
 constexpr glm::dvec2 kPlaces[] = {{0.5, 0.5}, {0.25, 0.3}, {0.75, 0.3}, {0.3, 0.7}, {0.7, 0.7}};
-
-double angleBetween(glm::dvec3 a, glm::dvec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 // Of the pixel, across; the mean of its width and height as areas count.
 double angleOfPixelRad(const Projection& projection, glm::dvec2 px) {

@@ -56,9 +56,9 @@ void to_json(json& out, const MethodErrors& errors) {
 
 void from_json(const json& in, MethodErrors& errors) {
     const json& geometric = in.at("geometric_px");
-    errors.geometric.maxPx = geometric.at("max");
-    errors.geometric.p99Px = geometric.at("p99");
-    errors.geometric.meanPx = geometric.at("mean");
+    errors.geometric.maxPx = numberOrInfinity(geometric.at("max"));
+    errors.geometric.p99Px = numberOrInfinity(geometric.at("p99"));
+    errors.geometric.meanPx = numberOrInfinity(geometric.at("mean"));
     errors.geometric.maxAt = {geometric.at("max_at").at(0), geometric.at("max_at").at(1)};
     errors.geometric.holes = geometric.at("empty_pixels");
     errors.misplacedPixels = geometric.at("misplaced_pixels");

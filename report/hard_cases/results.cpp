@@ -1,6 +1,7 @@
 #include "report/hard_cases/results.h"
 
 #include "report/kept_json.h"
+#include "report/speed_report_json.h"
 
 #include <algorithm>
 
@@ -13,48 +14,13 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Outcome, {{Outcome::drawn, "drawn"},
                                        {Outcome::refused, "refused"},
                                        {Outcome::failed, "failed"}})
 
-json toJson(const MethodErrors& e) {
-    return {{"geometric_px",
-             {{"max", e.geometric.maxPx}, {"p99", e.geometric.p99Px}, {"mean", e.geometric.meanPx}}},
-            {"misplaced_pixels", e.misplacedPixels},
-            {"image",
-             {{"share_off", e.image.shareOff},
-              {"psnr_db", e.image.psnrDb},
-              {"ssim", e.image.ssim},
-              {"max_difference", e.image.maxDifference}}},
-            {"coverage",
-             {{"uncovered", e.coverage.uncoveredPixels},
-              {"overdrawn", e.coverage.overdrawnPixels},
-              {"twice_covered", e.coverage.twiceCoveredPixels}}},
-            {"nan_texels", e.nanTexels}};
-}
-
-MethodErrors methodErrorsFromJson(const json& from) {
-    MethodErrors e;
-    const json &geometric = from.at("geometric_px"), &image = from.at("image"),
-               &coverage = from.at("coverage");
-    e.geometric.maxPx = numberOrInfinity(geometric.at("max"));
-    e.geometric.p99Px = numberOrInfinity(geometric.at("p99"));
-    e.geometric.meanPx = numberOrInfinity(geometric.at("mean"));
-    from.at("misplaced_pixels").get_to(e.misplacedPixels);
-    image.at("share_off").get_to(e.image.shareOff);
-    e.image.psnrDb = numberOrInfinity(image.at("psnr_db"));
-    image.at("ssim").get_to(e.image.ssim);
-    image.at("max_difference").get_to(e.image.maxDifference);
-    coverage.at("uncovered").get_to(e.coverage.uncoveredPixels);
-    coverage.at("overdrawn").get_to(e.coverage.overdrawnPixels);
-    coverage.at("twice_covered").get_to(e.coverage.twiceCoveredPixels);
-    from.at("nan_texels").get_to(e.nanTexels);
-    return e;
-}
-
 json toJson(const CaseResult& r) {
     json to{{"value", r.value}, {"method", r.method}, {"outcome", r.outcome}};
     if (r.outcome != Outcome::drawn) {
         to["reason"] = r.reason;
         return to;
     }
-    to["errors"] = toJson(r.errors);
+    to["errors"] = r.errors;
     to["wrong_pixels"] = r.wrongPixels;
     to["gap_pixels"] = r.gapPixels;
     to["wrong_share"] = r.wrongShare;
@@ -68,7 +34,7 @@ CaseResult caseResultFromJson(const json& from) {
         from.at("reason").get_to(r.reason);
         return r;
     }
-    r.errors = methodErrorsFromJson(from.at("errors"));
+    r.errors = from.at("errors").get<MethodErrors>();
     from.at("wrong_pixels").get_to(r.wrongPixels);
     from.at("gap_pixels").get_to(r.gapPixels);
     from.at("wrong_share").get_to(r.wrongShare);
