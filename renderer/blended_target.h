@@ -33,6 +33,9 @@ public:
     // Waits for the GPU. Never within a frame.
     Frame read(const FrameTarget& picture) const { return target_ ? target_->read() : picture.read(); }
 
+    // Of its own, with the maps; not of the picture.
+    size_t memoryBytes() const;
+
 private:
     TargetFormat format_;
     std::shared_ptr<const GpuBlend> maps_;

@@ -119,4 +119,9 @@ void FacePictures::makeLevels() const {
     if (layout_.levels > 0) glGenerateTextureMipmap(texture_.id());
 }
 
+size_t FacePictures::memoryBytes() const {
+    return sizeOf(texture_) + sizeOf(depth_) + (samples_ ? samples_->memoryBytes() : 0) + sizeOf(allDepths_) +
+           sizeOf(allSamples_);
+}
+
 }  // namespace curvewall

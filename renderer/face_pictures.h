@@ -34,6 +34,7 @@ public:
     void makeLevels() const;
 
     const GlTexture& texture() const { return texture_; }
+    size_t memoryBytes() const;
 
 private:
     void makeSeparate(int samples);

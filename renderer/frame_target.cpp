@@ -65,6 +65,10 @@ int FrameTarget::samples() const {
     return std::max(samples, 1);
 }
 
+size_t FrameTarget::memoryBytes() const {
+    return sizeOf(texture_) + sizeOf(depth_) + sizeOf(multisampleColor_);
+}
+
 Frame FrameTarget::read() const {
     Frame frame{sizePx_, channelsOf(format_.output), {}};
     const size_t rowTexels = static_cast<size_t>(sizePx_.x) * static_cast<size_t>(frame.channels);

@@ -39,6 +39,7 @@ public:
 
     glm::ivec2 sizePx() const { return sizePx_; }
     int samples() const;  // of a pixel; a driver may take more than it was asked for
+    size_t memoryBytes() const;
     const GlTexture& texture() const { return texture_; }
 
 private:

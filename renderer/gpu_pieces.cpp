@@ -204,4 +204,10 @@ GpuOwners uploadSampleOwners(const PieceMesh& mesh, std::span<const glm::dvec2> 
     return gpu;
 }
 
+size_t memoryBytesOf(const GpuPieces& pieces) {
+    return sizeOf(pieces.pieces) + sizeOf(pieces.nodes) + sizeOf(pieces.nodeGrid) + sizeOf(pieces.corners);
+}
+
+size_t memoryBytesOf(const GpuOwners& owners) { return sizeOf(owners.texture) + sizeOf(owners.holeTiles); }
+
 }  // namespace curvewall

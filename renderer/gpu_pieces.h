@@ -58,4 +58,7 @@ GpuOwners uploadOwners(const std::vector<int32_t>& owners, glm::ivec2 sizePx);
 // take too much memory.
 GpuOwners uploadSampleOwners(const PieceMesh& mesh, std::span<const glm::dvec2> offsetsPx);
 
+size_t memoryBytesOf(const GpuPieces& pieces);
+size_t memoryBytesOf(const GpuOwners& owners);
+
 }  // namespace curvewall

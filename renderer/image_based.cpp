@@ -26,6 +26,13 @@ GpuSource uploadSource(const ImageSource& source, FacePass pass, double distance
     return gpu;
 }
 
+size_t memoryBytesOf(const GpuSource& source) {
+    size_t bytes = sizeOf(source.lookup.places) + sizeOf(source.lookup.gradients) +
+                   sizeOf(source.lookup.cells) + memoryBytesOf(source.layers);
+    for (const GpuPieces& face : source.faces) bytes += memoryBytesOf(face);
+    return bytes;
+}
+
 GeometryPath pathThrough(const GpuSource& source) {
     if (source.layout.pass == FacePass::separate) return {};
     return {.source = CornerSource::layered, .layers = source.layers.pieceCount};

@@ -28,6 +28,9 @@ struct GpuSource {
 // layered.
 GpuSource uploadSource(const ImageSource& source, FacePass pass, double distanceM, GpuLookup lookup);
 
+// Of its lookup and its faces, without what these are drawn into.
+size_t memoryBytesOf(const GpuSource& source);
+
 // How the corners of a scene get into the pictures of the source.
 GeometryPath pathThrough(const GpuSource& source);
 

@@ -27,6 +27,8 @@ public:
     // Where the finished picture is.
     const FrameTarget& picture() const { return sum_ ? *sum_ : target_; }
 
+    size_t memoryBytes() const { return target_.memoryBytes() + (sum_ ? sum_->memoryBytes() : 0); }
+
 private:
     void addPass() const;
 

@@ -47,8 +47,11 @@ nlohmann::json toJson(const RenderStats& stats) {
         {"gl_renderer", stats.glRenderer},
         {"peak_memory_mib", stats.peakMemoryMib}};
     for (const auto& [stage, ms] : stats.stageMs) json["stage_ms"][stage] = ms;
-    if (stats.sceneMemoryMib > 0)
-        json["gpu_memory_mib"] = {{"scene", stats.sceneMemoryMib}, {"pairs", stats.pairsMemoryMib}};
+    if (const GpuMemoryMib& memory = stats.gpuMemoryMib; memory.scene > 0)
+        json["gpu_memory_mib"] = {{"scene", memory.scene},
+                                  {"pairs", memory.pairs},
+                                  {"display", memory.display},
+                                  {"pictures", memory.pictures}};
     if (stats.method == "piecewise")
         json["certificate"] = {{"every", stats.certificateEvery},
                                {"full_age_ms", stats.fullCertificateAgeMs}};

@@ -21,6 +21,14 @@ struct StageMs {
     double ms = 0;
 };
 
+// What a frame needs on the GPU.
+struct GpuMemoryMib {
+    double scene = 0;     // with its textures
+    double pairs = 0;     // what finds the pairs
+    double display = 0;   // what the display is drawn by: pieces, owners, rays, tables
+    double pictures = 0;  // all that is drawn into
+};
+
 // Why this method, where that was left open.
 struct ChoiceStats {
     struct Forecast {
@@ -68,8 +76,7 @@ struct RenderStats {
     double prepareMs = 0;          // fitting, certifying, upload, compilation: once, outside the frames
     std::string glRenderer;        // empty for the reference
     double peakMemoryMib = 0;
-    double sceneMemoryMib = 0;  // of the GPU, for the scene with its textures
-    double pairsMemoryMib = 0;  // and for what finds its pairs
+    GpuMemoryMib gpuMemoryMib{};
 
     std::optional<ChoiceStats> choice{};
     double overdraw() const {

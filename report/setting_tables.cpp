@@ -28,7 +28,9 @@ std::string measureOr(double value) { return value > 0 ? measureText(value) : kN
 double gpuMemoryMib(const SettingResult& result) {
     if (!result.stats.is_object() || !result.stats.contains("gpu_memory_mib")) return 0;
     const nlohmann::json& memory = result.stats["gpu_memory_mib"];
-    return numberAt(memory, "scene") + numberAt(memory, "pairs");
+    double sum = 0;
+    for (const char* part : {"scene", "pairs", "display", "pictures"}) sum += numberAt(memory, part);
+    return sum;
 }
 
 std::string spreadText(const Spread& ms) {

@@ -30,8 +30,8 @@ void print(const Row& row, const RenderStats& stats) {
     print(row, "pairs", static_cast<double>(stats.pairs));
     print(row, "meshlets", static_cast<double>(stats.meshlets));
     print(row, "meshlets_drawn", static_cast<double>(stats.meshletsDrawn));
-    print(row, "gpu_memory_mib.scene", stats.sceneMemoryMib);
-    print(row, "gpu_memory_mib.pairs", stats.pairsMemoryMib);
+    print(row, "gpu_memory_mib.scene", stats.gpuMemoryMib.scene);
+    print(row, "gpu_memory_mib.pairs", stats.gpuMemoryMib.pairs);
     print(row, "peak_memory_mib", stats.peakMemoryMib);
 }
 

@@ -19,12 +19,6 @@ GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags) {
     return buffer;
 }
 
-size_t sizeOf(const GlBuffer& buffer) {
-    GLint64 bytes = 0;
-    if (buffer) glGetNamedBufferParameteri64v(buffer.id(), GL_BUFFER_SIZE, &bytes);
-    return static_cast<size_t>(bytes);
-}
-
 GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels) {
     GLuint id = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &id);
@@ -64,6 +58,48 @@ void enableClipPlanes(int count) {
 
 void bindStorage(GLuint binding, const GlBuffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
+}
+
+size_t sizeOf(const GlBuffer& buffer) {
+    GLint64 bytes = 0;
+    if (buffer) glGetNamedBufferParameteri64v(buffer.id(), GL_BUFFER_SIZE, &bytes);
+    return static_cast<size_t>(bytes);
+}
+
+size_t sizeOf(const GlTexture& texture) {
+    size_t bits = 0;
+    GLint levels = 0;
+    if (texture) glGetTextureParameteriv(texture.id(), GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+    for (GLint level = 0; level < levels; ++level) {
+        const auto number = [&](GLenum name) {
+            GLint value = 0;
+            glGetTextureLevelParameteriv(texture.id(), level, name, &value);
+            return static_cast<size_t>(value);
+        };
+        size_t bitsATexel = 0;
+        for (const GLenum channel : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE,
+                                     GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE})
+            bitsATexel += number(channel);
+        bits += bitsATexel * number(GL_TEXTURE_WIDTH) * number(GL_TEXTURE_HEIGHT) * number(GL_TEXTURE_DEPTH) *
+                std::max<size_t>(number(GL_TEXTURE_SAMPLES), 1);
+    }
+    return bits / 8;
+}
+
+size_t sizeOf(const GlRenderbuffer& buffer) {
+    if (!buffer) return 0;
+    const auto number = [&](GLenum name) {
+        GLint value = 0;
+        glGetNamedRenderbufferParameteriv(buffer.id(), name, &value);
+        return static_cast<size_t>(value);
+    };
+    size_t bitsAPixel = 0;
+    for (const GLenum channel :
+         {GL_RENDERBUFFER_RED_SIZE, GL_RENDERBUFFER_GREEN_SIZE, GL_RENDERBUFFER_BLUE_SIZE,
+          GL_RENDERBUFFER_ALPHA_SIZE, GL_RENDERBUFFER_DEPTH_SIZE})
+        bitsAPixel += number(channel);
+    return bitsAPixel * number(GL_RENDERBUFFER_WIDTH) * number(GL_RENDERBUFFER_HEIGHT) *
+           std::max<size_t>(number(GL_RENDERBUFFER_SAMPLES), 1) / 8;
 }
 
 void requireComplete(const GlFramebuffer& framebuffer, glm::ivec2 sizePx) {

@@ -18,8 +18,6 @@ GlBuffer makeBuffer(std::span<const T> values) {
     return makeBuffer(values.data(), values.size_bytes());
 }
 
-size_t sizeOf(const GlBuffer& buffer);  // bytes; 0 where there is none
-
 GlTexture makeTexture2D(GLenum internalFormat, glm::ivec2 sizePx, int levels = 1);
 GlRenderbuffer makeRenderbuffer(GLenum internalFormat, glm::ivec2 sizePx, int samples = 1);
 GlVertexArray makeVertexArray();
@@ -27,6 +25,11 @@ GlFramebuffer makeFramebuffer();
 // The first so many clip distances are looked at, and no others.
 void enableClipPlanes(int count);
 void bindStorage(GLuint binding, const GlBuffer& buffer);
+
+// Bytes, with all levels, layers and samples; 0 where there is none. A driver may take more.
+size_t sizeOf(const GlBuffer& buffer);
+size_t sizeOf(const GlTexture& texture);
+size_t sizeOf(const GlRenderbuffer& buffer);
 
 // Throws std::runtime_error when the driver cannot render to it, as when there is no memory for its pictures.
 void requireComplete(const GlFramebuffer& framebuffer, glm::ivec2 sizePx);

@@ -131,7 +131,10 @@ RenderResult PiecewiseMethod::render(const RenderRequest& request, const Display
     measureFrames(request, {draw, readFirst, [&] { return drawn->renderer.takeStageTimes(); }}, stats);
     describe(*scene, drawn->renderer.programs(), stats);
     if (prepared->gpu.pieceCount > 1)
-        stats.pairsMemoryMib = mebibytes(memoryBytesOf(scene->replicatorsFor(request.engine)));
+        stats.gpuMemoryMib.pairs = mebibytes(memoryBytesOf(scene->replicatorsFor(request.engine)));
+    stats.gpuMemoryMib.display = mebibytes(memoryBytesOf(prepared->gpu) + memoryBytesOf(*prepared->owners) +
+                                           (drawn->sampleOwners ? memoryBytesOf(*drawn->sampleOwners) : 0));
+    stats.gpuMemoryMib.pictures = mebibytes(target.memoryBytes() + blended.memoryBytes());
     stats.method = "piecewise";
     stats.engine = prepared->gpu.pieceCount > 1 ? nameOf(request.engine) : "plain";
     stats.tolerancePx = request.tolerancePx;

@@ -68,7 +68,7 @@ double mebibytes(size_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1
 void describe(const PreparedScene& scene, const ScenePrograms& programs, RenderStats& stats) {
     stats.meshlets = meshletCountOf(scene.gpu);
     stats.attributes = programs.attributes();
-    stats.sceneMemoryMib = mebibytes(memoryBytesOf(scene.gpu));
+    stats.gpuMemoryMib.scene = mebibytes(memoryBytesOf(scene.gpu));
 }
 
 GeometricError errorOf(const Certificate& certificate) {

@@ -105,10 +105,32 @@ TEST_F(OnlyWhatIsNeeded, ACameraThatSeesLittleLooksIntoFewMeshlets) {
 TEST_F(OnlyWhatIsNeeded, MemoryIsThatOfTheBuffers) {
     const RenderStats stats = statsOf(cityOn(test::fullCylinderWall(kSizePx)));
     // 35,000 triangles of three corners, 4 bytes each, are 0.4 MiB; the textures are some MiB.
-    EXPECT_GT(stats.sceneMemoryMib, 0.4);
-    EXPECT_LT(stats.sceneMemoryMib, 100);
+    EXPECT_GT(stats.gpuMemoryMib.scene, 0.4);
+    EXPECT_LT(stats.gpuMemoryMib.scene, 100);
     // At least its pairs, 8 bytes each.
-    EXPECT_GT(stats.pairsMemoryMib * 1024 * 1024, 8.0 * static_cast<double>(stats.pairs));
+    EXPECT_GT(stats.gpuMemoryMib.pairs * 1024 * 1024, 8.0 * static_cast<double>(stats.pairs));
+}
+
+TEST_F(OnlyWhatIsNeeded, MemoryIsThatOfThePicturesAndTheDisplay) {
+    const double megapixels = kSizePx.x * kSizePx.y / (1024.0 * 1024.0);
+    RenderRequest request = cityOn(test::fullCylinderWall(kSizePx));
+    const GpuMemoryMib piecewise = statsOf(request).gpuMemoryMib;
+    // A colour and a depth of 4 bytes each; an owner of 4 bytes beside the pieces.
+    EXPECT_DOUBLE_EQ(piecewise.pictures, 8 * megapixels);
+    EXPECT_GT(piecewise.display, 4 * megapixels);
+
+    request.method = Method::imageBased;
+    request.faceSizePx = 256;
+    const RenderStats imageBased = statsOf(request);
+    const double megatexels = static_cast<double>(imageBased.sourceTexels) / (1024 * 1024);
+    // And the faces, with one depth for all of them; where each pixel looks, 16 bytes.
+    const double expectedMib = 8 * megapixels + 4 * megatexels * (1 + 1.0 / imageBased.faces);
+    EXPECT_GE(imageBased.gpuMemoryMib.pictures, expectedMib);
+    EXPECT_LT(imageBased.gpuMemoryMib.pictures, 1.1 * expectedMib);
+    EXPECT_GT(imageBased.gpuMemoryMib.display, 16 * megapixels);
+
+    request.samples = 4;
+    EXPECT_GT(statsOf(request).gpuMemoryMib.pictures, imageBased.gpuMemoryMib.pictures);
 }
 
 TEST_F(OnlyWhatIsNeeded, StagesAddUpToLessThanTheFrames) {
