@@ -2,6 +2,7 @@
 
 #include "report/hard_cases/known_limits.h"
 #include "report/hard_cases/methods.h"
+#include "report/words.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ std::vector<Told> toldFamilies(const std::vector<FamilyResult>& results) {
 
 std::string numberText(double value) {
     if (std::isinf(value)) return "infinite";
-    return value == 0 ? "0" : fmt::format("{:.2g}", value);
+    return measureText(value);
 }
 
 std::string valueText(double value) { return fmt::format("{:.7g}", value); }
@@ -82,11 +83,13 @@ std::string cellText(const CaseResult& result) {
     if (result.outcome == Outcome::failed) return "failed";
     std::string text = fmt::format("{} ({}) px", numberText(result.errors.geometric.maxPx),
                                    numberText(result.errors.geometric.p99Px));
-    if (result.wrongPixels > 0) text += fmt::format(", {} % wrong", numberText(100 * result.wrongShare));
-    const uint64_t gaps = std::max(result.gapPixels, result.errors.coverage.uncoveredPixels),
-                   added = result.errors.coverage.overdrawnPixels + result.errors.coverage.twiceCoveredPixels;
-    if (gaps > 0) text += fmt::format(", {} gaps", gaps);
-    if (added > 0) text += fmt::format(", {} too many", added);
+    if (result.wrongPixels > 0)
+        text += fmt::format(", {} % wrong", numberText(100 * static_cast<double>(result.wrongPixels) /
+                                                       static_cast<double>(result.displayPixels)));
+    if (result.errors.misplacedPixels > 0)
+        text += fmt::format(", {} misplaced", result.errors.misplacedPixels);
+    if (result.openPixels() > 0) text += fmt::format(", {} gaps", result.openPixels());
+    if (result.addedPixels() > 0) text += fmt::format(", {} too many", result.addedPixels());
     return result.isBroken() ? "broken: " + text : text;
 }
 
@@ -124,6 +127,22 @@ std::string inWords(const std::vector<std::string>& names) {
     return text;
 }
 
+// Where a method begins to break, and wherever no known limit explains it.
+void tellBreaks(const Told& told, const std::string& method, List& list) {
+    bool isFirst = true;
+    for (const double value : told.family.values) {
+        const CaseResult& result = told.at(value, method);
+        if (!result.isBroken()) continue;
+        const KnownLimit* const limit = knownLimitOf(told.family, result);
+        if (isFirst || !limit)
+            list.items.push_back(
+                fmt::format("{} breaks at {}: {}. {}", method, valueText(value),
+                            result.outcome == Outcome::failed ? result.reason : result.fault,
+                            limit ? "Known: " + limit->why : "Not explained by any known limit."));
+        isFirst = false;
+    }
+}
+
 // Why each method stops where it stops, or is fine to the end.
 List findings(const Told& told) {
     List list;
@@ -137,15 +156,8 @@ List findings(const Told& told) {
                                  truth.refusal + "\".");
     for (const std::string& method : told.methods) {
         const Course course = courseOf(told, method);
-        if (course.brokenFrom) {
-            const CaseResult& broken = told.at(*course.brokenFrom, method);
-            const KnownLimit* const limit = knownLimitOf(told.family, broken);
-            list.items.push_back(fmt::format("{} breaks at {}: {}. {}", method, valueText(*course.brokenFrom),
-                                             broken.outcome == Outcome::failed ? broken.reason : broken.fault,
-                                             limit ? "Known: " + limit->why : "Not explained yet."));
-        } else if (!course.isAllRefused) {
-            fine.push_back(method);
-        }
+        tellBreaks(told, method, list);
+        if (!course.brokenFrom && !course.isAllRefused) fine.push_back(method);
         if (course.isAllRefused)
             refusedBy[told.at(told.family.values.front(), method).reason].push_back(method);
         if (course.refusedFrom && !course.isAllRefused && wallRefusals.empty())
@@ -210,10 +222,12 @@ void tellFamily(const Told& told, std::vector<Block>& blocks) {
 }
 
 Table limitTable() {
-    Table table{{"family", "method", "from", "why"}, {}};
+    Table table{
+        {"family", "method", "from", "off by at most, px", "99 in 100, px", "pixels at fault, %", "why"}, {}};
     for (const KnownLimit& limit : knownLimits())
-        table.rows.push_back(
-            {limit.family, limit.methods.empty() ? "any" : limit.methods, valueText(limit.from), limit.why});
+        table.rows.push_back({limit.family, limit.methods.empty() ? "any" : limit.methods,
+                              valueText(limit.from), numberText(limit.maxPx), numberText(limit.p99Px),
+                              numberText(100 * limit.faultyShare), limit.why});
     return table;
 }
 

@@ -6,89 +6,92 @@ namespace curvewall {
 
 const std::vector<KnownLimit>& knownLimits() {
     static const std::vector<KnownLimit> limits{
-        {"pole crossing", "vertex-warp", 0.1,
+        {"pole crossing", "vertex-warp", 0.1, 9.5, 1.3, 0.0063,
          "Beside a pole a part of a triangle spans a wide range of azimuths, and its straight edges sweep "
          "across them: "
          "up to 5 px, and single pixels open, on displays of some 100 px. On larger ones parts are smaller."},
-        {"behind the eye", "vertex-warp", 1e7,
+        {"behind the eye", "vertex-warp", 1e7, 0.093, 0.050, 0.19,
          "Parts are no finer than a millionth of a triangle, here 10 m: what is near the eye of a triangle "
          "that goes so far stays open, 1 pixel in 7."},
-        {"around the eye", "piecewise", 1e-3,
+        {"around the eye", "piecewise", 1e-3, 5.2, 2.1, 0.0053,
          "Corners are rounded to 1e-7 of their distance. Where the plane of a triangle is nearer to the eye "
          "than 1/5000 "
          "of the triangle's size this is 0.4 px, and nearer than 1/50,000 it opens gaps between pieces."},
-        {"around the eye", "", 1e-5,
+        {"around the eye", "", 1e-5, 0.78, 0.61, 0.024,
          "Half as far as what every method cuts: what it cuts beside it depends on how it measures "
          "distances."},
-        {"long edges", "", 179.9999,
+        {"long edges", "piecewise", 179.9999, 16, 5.4, 0.013,
          "The corners are 1.6e6 m away, on edges that run past at 1 m: single precision knows them to 0.1 "
          "m."},
-        {"vertex at the eye", "", 1e-6,
+        {"vertex at the eye", "", 1e-6, 0.70, 0.57, 0.00087,
          "The sides are within a millionth of edge on, where the reference shows a few pixels of them that "
          "it should "
          "not, and every method others.",
          false},
-        {"edge through the eye", "piecewise", 1e-4,
+        {"edge through the eye", "piecewise", 1e-4, 9.5, 2.6, 0.0031,
          "As around the eye: the triangle is 50,000 times as long as its plane is far from the eye."},
-        {"edge through the eye", "", 1e-6,
+        {"edge through the eye", "", 1e-6, 0.70, 0.57, 0.0053,
          "The plane of the triangle is within a millionth of its corners' distance from the eye: it may show "
          "or not.",
          false},
-        {"fan", "vertex-warp", 1e4,
+        {"fan", "vertex-warp", 1e4, 0.093, 0.050, 0.021,
          "Parts thinner than the rasterizer's grid overlap where edges are divided: up to 1 pixel in 30 is "
          "covered "
          "twice, by the same surface."},
-        {"coplanar overlaps", "vertex-warp", 1e-4,
+        {"coplanar overlaps", "vertex-warp", 1e-4, 0.093, 0.050, 0.023,
          "Depths are linear within a part, which is off by the square of its angle: surfaces nearer to one "
          "another "
          "than 1e-3 of their distance on displays of 100 px, and 1e-5 on those of 500 px, shine through each "
          "other."},
-        {"coplanar overlaps", "piecewise", 0,
+        {"coplanar overlaps", "piecewise", 0, 0.31, 0.27, 0.0086,
          "No order is right in one plane, and each piece rounds otherwise."},
-        {"fields of view, equidistant", "piecewise", 359.9,
+        {"fields of view, equidistant", "piecewise", 359.9, 620, 0.28, 0.0011,
          "The rim is one direction, seen all around: a point beyond it by less than a pixel belongs on the "
          "other side "
          "of the picture."},
-        {"fields of view, equidistant", "image-based", 359.9,
+        {"fields of view, equidistant", "image-based", 359.9, 220, 2.4, 0.00011,
          "The same, and texels there are many pixels wide.", false},
-        {"fields of view, equidistant", "vertex-warp", 359.9,
+        {"fields of view, equidistant", "vertex-warp", 359.9, 0.61, 0.18, 0.0097,
          "The picture is torn at its rim, where parts are drawn to both sides."},
-        {"fields of view, stereographic", "vertex-warp", 350,
+        {"fields of view, stereographic", "vertex-warp", 350, 0.84, 0.67, 0.87,
          "Parts near straight behind are long: 0.3 px off at 350 degrees on displays of 100 px, and at 359.9 "
          "most of "
          "the picture stays open."},
-        {"fields of view, stereographic", "image-based", 359.9,
+        {"fields of view, stereographic", "image-based", 359.9, 130, 110, 0.00011,
          "Faces end at 4096 px, and the display magnifies more than these: a texel is up to 100 px wide."},
-        {"fields of view, curvilinear", "vertex-warp", 179.9,
+        {"fields of view, curvilinear", "vertex-warp", 179.9, 0.79, 0.41, 0.060,
          "The corners of the display see all but straight behind, where parts are too long: gaps."},
-        {"fields of view, curvilinear", "image-based", 179.9, "As with stereographic lenses."},
-        {"eye at a curved wall", "vertex-warp", 1e-2, "Parts do not follow the wall beside the eye."},
-        {"eye at a curved wall", "piecewise", 1e-4,
-         "Some pixels see the wall along its surface, nearly: of 131,072 fewer than 60 are off, by 7 px and "
-         "more.",
+        {"fields of view, curvilinear", "image-based", 179.9, 43, 30, 0.00011,
+         "As with stereographic lenses."},
+        {"eye at a curved wall", "vertex-warp", 1e-2, 2.0, 0.38, 0.0036,
+         "Parts do not follow the wall beside the eye."},
+        {"eye at a curved wall", "piecewise", 1e-4, 150, 0.18, 0.00011,
+         "Some pixels see the wall along its surface, nearly: of 131,072 fewer than 60 are off by more than "
+         "the tolerance.",
          false},
-        {"eye at a curved wall", "image-based", 1e-2,
+        {"eye at a curved wall", "image-based", 1e-2, 2700, 14, 0.00011,
          "Faces end at 4096 px, and the wall beside the eye is magnified more than these."},
-        {"eye at a flat screen", "image-based", 1e-2,
+        {"eye at a flat screen", "image-based", 1e-2, 270, 230, 0.00035,
          "Faces end at 4096 px; what is seen beside the axis is magnified more than these."},
-        {"screen edge on", "image-based", 1, "As with the eye at a flat screen."},
-        {"folds of a measured map", "piecewise", 1e-4,
+        {"screen edge on", "image-based", 1, 1200, 1200, 0.00053, "As with the eye at a flat screen."},
+        {"folds of a measured map", "piecewise", 1e-4, 330, 0.23, 0.00035,
          "Facets that the eye sees nearly edge on lose single pixels to single precision: up to 20 on a "
          "display of 512 "
          "x 384.",
          false},
-        {"folds of a measured map", "vertex-warp", 0.1,
+        {"folds of a measured map", "vertex-warp", 0.1, 1.5, 0.95, 0.00011,
          "Points are off by up to 2 px where the map is squeezed; squeezed more it is refused.", false},
-        {"folds of a measured map", "image-based", 1e-2,
+        {"folds of a measured map", "image-based", 1e-2, 330, 44, 0.00019,
          "Where the map is squeezed, the display magnifies its source without end, and faces are as dense as "
          "all but "
          "the densest hundredth of the display."},
-        {"noise in a measured map", "piecewise", 2,
+        {"noise in a measured map", "piecewise", 2, 12, 2.3, 0.00027,
          "The certificate tells where rays land. Where a noisy map nearly folds, where the ray that is shown "
          "comes "
          "from is off by several times that, up to 7 px."},
-        {"noise in a measured map", "vertex-warp", 2, "The picture nearly folds within a part."},
-        {"noise in a measured map", "image-based", 8, "As where a map folds."},
+        {"noise in a measured map", "vertex-warp", 2, 2.7, 1.1, 0.00053,
+         "The picture nearly folds within a part."},
+        {"noise in a measured map", "image-based", 8, 14, 4.6, 0.00018, "As where a map folds."},
     };
     return limits;
 }
@@ -97,9 +100,11 @@ const KnownLimit* knownLimitOf(const HardCaseFamily& family, const CaseResult& r
     const auto placeOf = [&](double value) {
         return std::ranges::find(family.values, value) - family.values.begin();
     };
+    if (result.outcome != Outcome::drawn) return nullptr;
     const auto found = std::ranges::find_if(knownLimits(), [&](const KnownLimit& limit) {
         return limit.family == family.name && result.method.starts_with(limit.methods) &&
-               placeOf(limit.from) <= placeOf(result.value);
+               placeOf(limit.from) <= placeOf(result.value) && result.errors.geometric.maxPx <= limit.maxPx &&
+               result.errors.geometric.p99Px <= limit.p99Px && result.faultyShare() <= limit.faultyShare;
     });
     return found == knownLimits().end() ? nullptr : &*found;
 }

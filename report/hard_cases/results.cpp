@@ -23,7 +23,7 @@ json toJson(const CaseResult& r) {
     to["errors"] = r.errors;
     to["wrong_pixels"] = r.wrongPixels;
     to["gap_pixels"] = r.gapPixels;
-    to["wrong_share"] = r.wrongShare;
+    to["display_pixels"] = r.displayPixels;
     to["fault"] = r.fault;
     return to;
 }
@@ -37,7 +37,7 @@ CaseResult caseResultFromJson(const json& from) {
     r.errors = from.at("errors").get<MethodErrors>();
     from.at("wrong_pixels").get_to(r.wrongPixels);
     from.at("gap_pixels").get_to(r.gapPixels);
-    from.at("wrong_share").get_to(r.wrongShare);
+    from.at("display_pixels").get_to(r.displayPixels);
     from.at("fault").get_to(r.fault);
     return r;
 }
@@ -59,6 +59,11 @@ CaseTruth caseTruthFromJson(const json& from) {
 }
 
 }  // namespace
+
+double CaseResult::faultyShare() const {
+    const uint64_t most = std::max({wrongPixels, openPixels(), addedPixels(), errors.misplacedPixels});
+    return displayPixels == 0 ? 0 : static_cast<double>(most) / static_cast<double>(displayPixels);
+}
 
 const CaseResult* FamilyResult::find(double value, const std::string& method) const {
     const auto found = std::ranges::find_if(

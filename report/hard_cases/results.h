@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,10 +28,17 @@ struct CaseResult {
     // Of what was drawn.
     MethodErrors errors{};
     uint64_t wrongPixels = 0, gapPixels = 0;  // see wrong_pixels.h
-    double wrongShare = 0;                    // of all pixels
+    uint64_t displayPixels = 0;
     std::string fault{};  // what is beyond the method's bounds, in words; empty where nothing is
 
     bool isBroken() const { return outcome == Outcome::failed || !fault.empty(); }
+    // Pixels that stay open, those that show more than there is, and the share of all that are at fault in
+    // the way that most are.
+    uint64_t openPixels() const { return std::max(gapPixels, errors.coverage.uncoveredPixels); }
+    uint64_t addedPixels() const {
+        return errors.coverage.overdrawnPixels + errors.coverage.twiceCoveredPixels;
+    }
+    double faultyShare() const;
 };
 
 // How far the reference can be trusted with one case.

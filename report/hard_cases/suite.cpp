@@ -6,6 +6,7 @@
 #include "report/content_key.h"
 #include "report/hard_cases/wrong_pixels.h"
 #include "report/kept_json.h"
+#include "report/words.h"
 
 #include <fmt/format.h>
 
@@ -60,21 +61,19 @@ StatedBounds boundsOf(const HardCaseMethod& method, const MethodErrors& truth) {
 
 std::string faultOf(const CaseResult& result, const StatedBounds& bounds, glm::ivec2 sizePx) {
     const MethodErrors& errors = result.errors;
-    const CoverageError& coverage = errors.coverage;
     const auto mostWrong = static_cast<uint64_t>(mostWrongPixels(sizePx));
     if (errors.nanTexels > 0) return fmt::format("{} numbers of its colours are none", errors.nanTexels);
     if (errors.misplacedPixels > mostWrong)
         return fmt::format("{} pixels show what the display has no place for", errors.misplacedPixels);
-    if (coverage.uncoveredPixels + result.gapPixels > 0)
-        return fmt::format("{} pixels have gaps", std::max(coverage.uncoveredPixels, result.gapPixels));
-    if (coverage.overdrawnPixels + coverage.twiceCoveredPixels > mostWrong)
-        return fmt::format("{} pixels show what is not there",
-                           coverage.overdrawnPixels + coverage.twiceCoveredPixels);
+    if (result.openPixels() > 0) return fmt::format("{} pixels have gaps", result.openPixels());
+    if (result.addedPixels() > mostWrong)
+        return fmt::format("{} pixels show what is not there", result.addedPixels());
     if (errors.geometric.maxPx > bounds.maxPx)
-        return fmt::format("off by {:.3g} px, more than {:.3g}", errors.geometric.maxPx, bounds.maxPx);
+        return "off by " + measureText(errors.geometric.maxPx) + " px, more than " +
+               measureText(bounds.maxPx);
     if (errors.geometric.p99Px > bounds.p99Px)
-        return fmt::format("1 pixel in 100 is off by {:.3g} px, more than {:.3g}", errors.geometric.p99Px,
-                           bounds.p99Px);
+        return "1 pixel in 100 is off by " + measureText(errors.geometric.p99Px) + " px, more than " +
+               measureText(bounds.p99Px);
     if (result.wrongPixels > mostWrong)
         return fmt::format("{} pixels have a colour that is not there", result.wrongPixels);
     return {};
@@ -135,8 +134,8 @@ private:
             const bool isClosed = closesOnItself(display);
             result.wrongPixels = wrongPixels(drawn.color, truth.color, isClosed);
             result.gapPixels = gapPixels(drawn.coverage, truth.coverage, isClosed);
-            result.wrongShare = static_cast<double>(result.wrongPixels) /
-                                (static_cast<double>(display.sizePx.x) * display.sizePx.y);
+            result.displayPixels =
+                static_cast<uint64_t>(display.sizePx.x) * static_cast<uint64_t>(display.sizePx.y);
             result.fault = faultOf(result, boundsOf(method, judged.errors), display.sizePx);
             if (isPictured(value) && (request.method == Method::piecewise || !result.fault.empty()))
                 addPicture(method.name, value, drawn.color);
