@@ -127,6 +127,15 @@ float sizeOfEdge(vec3 a, vec3 b) {
     return distance(a, b) * dot(seen, seen);
 }
 
+// Points are sums of a triangle's corners with their roundings, and edges not much longer than those turn any way. How far
+// the largest of what is summed up for the point at `at` lies, at most: where one corner is near and another far away, that
+// is far less than the farther of them. At the pole of a map that repeats nothing so small is left (see isAtPole); straight
+// behind a round one it would be seen all along the rim.
+float finestAt(vec3 nearness, vec3 at) {
+    precise float sum = at.x * nearness.x + at.y * nearness.y + at.z * nearness.z;
+    return ldexp(1.0 / sum, size.z > 0.0 || size.w > 0.0 ? -23 : -20);
+}
+
 // Whether an edge can be halved, and is long enough for it.
 bool hasMiddle(uvec2 weightsA, uvec2 weightsB, vec3 a, vec3 b, float finest) {
     return ((weightsA + weightsB) & 1u) == uvec2(0u) && distance(a, b) > finest;
@@ -140,11 +149,7 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
     PartCorners open[MOST_OPEN];
     open[0] = WHOLE;
     int openCount = 1;
-    // Points are sums of the triangle's corners with their roundings, and edges not much longer than those turn any way. At
-    // the pole of a map that repeats nothing so small is left (see isAtPole); straight behind a round one it would be seen
-    // all along the rim.
-    float furthest = max(max(length(t.a), length(t.b)), length(t.c));
-    float finest = ldexp(furthest, size.z > 0.0 || size.w > 0.0 ? -23 : -20);
+    vec3 nearness = 1.0 / max(vec3(length(t.a), length(t.b), length(t.c)), 1e-30);
     uint count = 0u;
     ivec2 turns = ivec2(0);  // of the part in hand: the next that is taken, and how many are left
     // One loop, for llvmpipe (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together.
@@ -178,10 +183,12 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         if (!isWide && box.isTorn && size.z > 0.0 && (box.most.y < 0.0 || box.least.y > size.y)) continue;
         if (!isWide && box.isTorn && size.w > 0.0 && (box.most.x < 0.0 || box.least.x > size.x)) continue;
 #endif
+        float finestA = finestAt(nearness, weightsOf(part[0])), finestB = finestAt(nearness, weightsOf(part[1])),
+              finestC = finestAt(nearness, weightsOf(part[2]));
         vec3 sizes = vec3(
-            hasMiddle(part[0], part[1], p.a, p.b, finest) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? sizeOfEdge(p.a, p.b) : 0.0,
-            hasMiddle(part[1], part[2], p.b, p.c, finest) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? sizeOfEdge(p.b, p.c) : 0.0,
-            hasMiddle(part[2], part[0], p.c, p.a, finest) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? sizeOfEdge(p.c, p.a) : 0.0);
+            hasMiddle(part[0], part[1], p.a, p.b, max(finestA, finestB)) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? sizeOfEdge(p.a, p.b) : 0.0,
+            hasMiddle(part[1], part[2], p.b, p.c, max(finestB, finestC)) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? sizeOfEdge(p.b, p.c) : 0.0,
+            hasMiddle(part[2], part[0], p.c, p.a, max(finestC, finestA)) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? sizeOfEdge(p.c, p.a) : 0.0);
         float largest = max(max(sizes.x, sizes.y), sizes.z);
         if (largest == 0.0 || openCount + 2 > MOST_OPEN) {
             taken.corners = part;
