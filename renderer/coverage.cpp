@@ -37,6 +37,17 @@ std::vector<std::string> withWarp(std::vector<std::string> screenMap) {
     return screenMap;
 }
 
+// In the words of warp_parts.glsl.
+const char* refusalOfParts(uint32_t refusal) {
+    constexpr uint32_t kTooManyParts = 1;
+    if (refusal == kTooManyParts)
+        return "a triangle is seen so large that it has too many parts for so short a tessellation length; a "
+               "longer one has fewer";
+    return "single precision has no parts as fine as a triangle needs, and more than a pixel would stay "
+           "open: it goes too far to all sides for how near the eye is, or the display magnifies some "
+           "directions too much; reference draws it";
+}
+
 constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
 
 void dispatch(const GlProgram& program, uint32_t groups, GLbitfield barrier = kResults) {
@@ -234,24 +245,21 @@ void Coverage::run(const ScenePart& part, const BindForTriangles& bindForTriangl
 
 Coverage::Totals Coverage::takeTotals(size_t part) {
     volatile Totals& of = totals_[part];
-    return {std::exchange(of.pairs, 0), std::exchange(of.meshlets, 0), std::exchange(of.unfinished, 0)};
+    return {std::exchange(of.pairs, 0), std::exchange(of.meshlets, 0), std::exchange(of.refusal, 0)};
 }
 
 FrameOutcome Coverage::finishFrame() {
     FrameOutcome outcome;
     std::vector<uint32_t> needed(parts_.size());
-    bool isUnfinished = false;
+    uint32_t refusal = 0;
     for (size_t i = 0; i < parts_.size(); ++i) {
         const Totals totals = takeTotals(i);
-        isUnfinished = isUnfinished || totals.unfinished != 0;
+        refusal = std::max(refusal, totals.refusal);
         needed[i] = totals.pairs;
         outcome.pairCount += totals.pairs;
         outcome.meshletCount += totals.meshlets;
     }
-    if (isUnfinished)
-        throw UsageError(
-            "a triangle is seen so large that it has too many parts for so short a tessellation length; a "
-            "longer one has fewer");
+    if (refusal != 0) throw UsageError(refusalOfParts(refusal));
     if (const auto room = roomFor(parts_, needed, capacity_, mostPairs_)) {
         outcome.overflowed = true;
         capacity_ = *room;

@@ -85,7 +85,7 @@ private:
     // What the GPU has counted of a part.
     struct Totals {
         uint32_t pairs, meshlets;
-        uint32_t unfinished;  // vertex-warp: not 0 where a triangle has more parts than could be found
+        uint32_t refusal;  // vertex-warp: why a triangle cannot be divided, as warp_parts.glsl has it, or 0
     };
     Totals takeTotals(size_t part);
 

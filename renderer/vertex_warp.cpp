@@ -20,6 +20,7 @@ GpuWarp makeWarp(std::shared_ptr<const GpuScreenMap> map, std::shared_ptr<const 
                  glm::ivec2 sizePx, double tessellationPx) {
     ScreenMapNumbers numbers = map->numbers;
     numbers.finish.y = static_cast<float>(tessellationPx);
+    numbers.finish.z = kNearFraction;
     return {std::move(map), makeBuffer(&numbers, sizeof numbers), sizePx, tessellationPx > 0,
             std::move(owners)};
 }

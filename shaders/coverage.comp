@@ -45,7 +45,7 @@ uint count(uint triangle, bool isSingleSided, uvec2 nodeRange) {
     if (behind && isSingleSided) return 0u;
     uint pieces = walk(t, nodeRange.x, nodeRange.y, ALL_PIECES);
 #ifdef WARP
-    if (isUnfinished) pieces = 0u;  // nobody sees the frame, which need not take long then
+    if (refusal != 0u) pieces = 0u;  // nobody sees the frame, which need not take long then
 #endif
     return pieces | (behind ? SEEN_FROM_BEHIND : 0u);
 }
@@ -71,7 +71,7 @@ void main() {
     uint counted = isTriangle ? count(m.firstTriangle + self, m.isSingleSided != 0u, meshletNodes[index]) : 0u;
     found[slot] = uvec4(kept, counted);
 #ifdef WARP
-    if (isUnfinished) totals[3u * part + 2u] = 1u;
+    if (refusal != 0u) totals[3u * part + 2u] = refusal;  // of all one is enough
 #endif
     uint pairCount = counted & ~SEEN_FROM_BEHIND;
     uint before = groupPrefix(pairCount);

@@ -13,7 +13,8 @@ layout(std140, binding = 0) uniform ScreenMap {
     vec4 seenCone;            // holds all that the display shows: axis, wall axes, length one, and cosine of half its width
     vec4 torn[2];             // directions that positions jump at, wall axes, length one; w: 1, or 0 where there is none
     vec4 size;                // of the display, px; then how many px the map repeats after along x and along y, 0 for never
-    vec4 finish;              // 1 / distance to the wall; the length of edges that is asked for, px, or 0
+    // 1 / distance to the wall; the length of edges that is asked for, px, or 0; the share of that distance that is cut
+    vec4 finish;
 };
 
 // Nothing within `sine` and `cosine` of the direction, which is not further around it than a quarter turn, is shown.

@@ -50,6 +50,18 @@ vec3 sideAndAngle(vec3 d) {
     return vec3(offAxis > 0.0 ? d.xy / offAxis : vec2(1.0, 0.0), atan(offAxis, -d.z));
 }
 
+#ifdef STEREOGRAPHIC
+// Oros, A conceptual and practical look into spherical curvilinear projection, section 2: the mean of depth and distance
+// takes the depth's place, then perspective. Only here: near straight behind it is so small that all would be cut.
+vec2 formulaPosition(vec3 d) {
+    // Straight behind, where every side is right, it is the right.
+    if (dot(d.xy, d.xy) < 1e-14 * dot(d, d)) d.x = 1e-7 * length(d);
+    // Behind the eye depth and distance would cancel.
+    float off = dot(d.xy, d.xy), apart = length(d);
+    return d.xy / (d.z <= 0.0 ? 0.5 * (apart - d.z) : 0.5 * off / (apart + d.z));
+}
+#endif
+
 #ifdef RADIAL
 vec2 formulaPosition(vec3 d) {
     float c[kRadialTerms];
@@ -119,19 +131,8 @@ vec2 formulaPosition(vec3 d) {
 // can be shown.
 vec3 screenPosition(vec3 ray) {
     vec3 d = inDisplay(ray);
-#if defined(PROJECTIVE)
+#ifdef PROJECTIVE
     return d;
-#elif defined(STEREOGRAPHIC)
-    // Oros, A conceptual and practical look into spherical curvilinear projection, section 2: the mean of depth and
-    // distance takes the depth's place, then perspective. Behind the eye their difference would cancel.
-    float off = dot(d.xy, d.xy), apart = length(d);
-    float depth = d.z <= 0.0 ? 0.5 * (apart - d.z) : 0.5 * off / (apart + d.z);
-    vec3 position = vec3(pixels.xy * depth + pixels.zw * d.xy, depth);
-#ifdef ON_SPHERE
-    return position * (length(ray) * finish.x / depth);
-#else
-    return position * finish.x;
-#endif
 #else
     return vec3(pixels.xy + pixels.zw * formulaPosition(d), 1.0) * (length(ray) * finish.x);
 #endif

@@ -9,6 +9,7 @@
 const uint ALL_PIECES = 0xffffffffu;
 const uint SEEN_FROM_BEHIND = 0x80000000u;  // a triangle's facing, beside its index
 const float WIDEST_COSINE = 0.70710678;
+const float MOST_GAP_PX = 1.0;  // left open where parts can be no finer
 
 struct RayTriangle {
     vec3 a, b, c;  // from the eye to the corners
@@ -109,7 +110,9 @@ ivec2 turnsWithin(float least, float most, float extentPx, float turnPx) {
     return ivec2(begin, clamp(end - begin, 0, TURN_BIAS - begin));
 }
 
-bool isUnfinished = false;          // walk() could not go through all
+// Why walk() has not all of a triangle's parts; renderer/coverage.cpp says so.
+const uint TOO_MANY_PARTS = 1u, TOO_COARSE_PARTS = 2u;
+uint refusal = 0u;
 void take(uint piece, uint nth);  // what the includer does with the nth part
 
 // No map repeats along both.
@@ -127,9 +130,46 @@ float sizeOfEdge(vec3 a, vec3 b) {
     return distance(a, b) * dot(seen, seen);
 }
 
+// Points are sums of a triangle's corners with their roundings, and edges not much longer than those turn any way. How far
+// the largest of what is summed up for the point at `at` lies, at most: where one corner is near and another far away, that
+// is far less than the farther of them. At the pole of a map that repeats nothing so small is left (see isAtPole); straight
+// behind a round one it would be seen all along the rim.
+float finestAt(vec3 nearness, vec3 at) {
+    precise float sum = at.x * nearness.x + at.y * nearness.y + at.z * nearness.z;
+    return ldexp(1.0 / sum, size.z > 0.0 || size.w > 0.0 ? -23 : -20);
+}
+
 // Whether an edge can be halved, and is long enough for it.
 bool hasMiddle(uvec2 weightsA, uvec2 weightsB, vec3 a, vec3 b, float finest) {
     return ((weightsA + weightsB) & 1u) == uvec2(0u) && distance(a, b) > finest;
+}
+
+// Whether the eye is surely off a triangle's plane, by more than what is cut: others are seen edge-on, as a line at most.
+bool isOffPlane(RayTriangle t) {
+    vec3 ab = t.b - t.a, ac = t.c - t.a;
+    float roundings = ldexp(dot(abs(t.a), abs(ab.yzx * ac.zxy) + abs(ab.zxy * ac.yzx)), -22);
+    return abs(t.facing) > max(roundings, finish.z / finish.x * length(cross(ab, ac)));
+}
+
+// How much the display shows between where a point lands and where its side of a direction that positions jump at does.
+float shownBesidePx(vec4 jump, vec3 at, vec2 px) {
+    vec3 beside = at - dot(jump.xyz, at) * jump.xyz;
+    vec2 end = pixelsOf(jump.xyz + beside * (1e-6 / max(length(beside), 1e-30)));
+    // Poles of maps that repeat are whole lines.
+    vec2 shown = abs(clamp(px, vec2(0.0), size.xy) - clamp(end, vec2(0.0), size.xy));
+    if (size.z > 0.0) return shown.y;
+    if (size.w > 0.0) return shown.x;
+    // Straight behind a round one is a circle. On which side of it a point so close by lies its roundings may tell.
+    if (px != clamp(px, vec2(0.0), size.xy)) return 0.0;
+    vec2 middle = pixelsOf(-jump.xyz);
+    return abs(distance(px, middle) - distance(end, middle));
+}
+
+// How wide a gap is where a part is left out that cannot be divided.
+float gapPx(Part p, ScreenBox box, bool turns) {
+    if (!turns) return turnsOf(box).y > 0 ? length(box.most - box.least) : 0.0;
+    vec4 jump = dot(torn[0].xyz, p.a + p.b + p.c) > 0.0 ? torn[0] : torn[1];
+    return max(max(shownBesidePx(jump, p.a, p.pxA), shownBesidePx(jump, p.b, p.pxB)), shownBesidePx(jump, p.c, p.pxC));
 }
 
 // Takes the parts of the triangle, `most` of them, and counts them. `begin` and `end` are those of a piece tree.
@@ -140,11 +180,7 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
     PartCorners open[MOST_OPEN];
     open[0] = WHOLE;
     int openCount = 1;
-    // Points are sums of the triangle's corners with their roundings, and edges not much longer than those turn any way. At
-    // the pole of a map that repeats nothing so small is left (see isAtPole); straight behind a round one it would be seen
-    // all along the rim.
-    float furthest = max(max(length(t.a), length(t.b)), length(t.c));
-    float finest = ldexp(furthest, size.z > 0.0 || size.w > 0.0 ? -23 : -20);
+    vec3 nearness = 1.0 / max(vec3(length(t.a), length(t.b), length(t.c)), 1e-30);
     uint count = 0u;
     ivec2 turns = ivec2(0);  // of the part in hand: the next that is taken, and how many are left
     // One loop, for llvmpipe (Mesa 22.3) ends all loops of a shader once they have gone round 65,535 times together.
@@ -178,16 +214,22 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         if (!isWide && box.isTorn && size.z > 0.0 && (box.most.y < 0.0 || box.least.y > size.y)) continue;
         if (!isWide && box.isTorn && size.w > 0.0 && (box.most.x < 0.0 || box.least.x > size.x)) continue;
 #endif
+        float finestA = finestAt(nearness, weightsOf(part[0])), finestB = finestAt(nearness, weightsOf(part[1])),
+              finestC = finestAt(nearness, weightsOf(part[2]));
         vec3 sizes = vec3(
-            hasMiddle(part[0], part[1], p.a, p.b, finest) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? sizeOfEdge(p.a, p.b) : 0.0,
-            hasMiddle(part[1], part[2], p.b, p.c, finest) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? sizeOfEdge(p.b, p.c) : 0.0,
-            hasMiddle(part[2], part[0], p.c, p.a, finest) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? sizeOfEdge(p.c, p.a) : 0.0);
+            hasMiddle(part[0], part[1], p.a, p.b, max(finestA, finestB)) && isLong(p.a, p.b, p.pxA, p.pxAb, p.pxB) ? sizeOfEdge(p.a, p.b) : 0.0,
+            hasMiddle(part[1], part[2], p.b, p.c, max(finestB, finestC)) && isLong(p.b, p.c, p.pxB, p.pxBc, p.pxC) ? sizeOfEdge(p.b, p.c) : 0.0,
+            hasMiddle(part[2], part[0], p.c, p.a, max(finestC, finestA)) && isLong(p.c, p.a, p.pxC, p.pxCa, p.pxA) ? sizeOfEdge(p.c, p.a) : 0.0);
         float largest = max(max(sizes.x, sizes.y), sizes.z);
         if (largest == 0.0 || openCount + 2 > MOST_OPEN) {
             taken.corners = part;
             // What still turns far is too small to be divided, and would be seen far from where it is.
-            bool isDrawn = !isWide && !box.isTorn && !turnsFar(p.a, p.b) && !turnsFar(p.b, p.c) && !turnsFar(p.c, p.a);
-            if (isDrawn) turns = turnsOf(box);
+            bool isTurning = box.isTorn || turnsFar(p.a, p.b) || turnsFar(p.b, p.c) || turnsFar(p.c, p.a);
+            if (!isWide && !isTurning) {
+                turns = turnsOf(box);
+            } else if (gapPx(p, box, isTurning) > MOST_GAP_PX && isOffPlane(t)) {
+                refusal = TOO_COARSE_PARTS;
+            }
             continue;
         }
         int from = largest == sizes.x ? 0 : largest == sizes.y ? 1 : 2, to = (from + 1) % 3;
@@ -198,6 +240,6 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         open[openCount++] = first;
         open[openCount++] = second;
     }
-    isUnfinished = (openCount > 0 || turns.y > 0) && count < most;
+    if ((openCount > 0 || turns.y > 0) && count < most) refusal = TOO_MANY_PARTS;
     return count;
 }

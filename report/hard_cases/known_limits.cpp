@@ -10,9 +10,6 @@ const std::vector<KnownLimit>& knownLimits() {
          "Beside a pole a part of a triangle spans a wide range of azimuths, and its straight edges sweep "
          "across them: "
          "up to 5 px, and single pixels open, on displays of some 100 px. On larger ones parts are smaller."},
-        {"behind the eye", "vertex-warp", 1e7, 0.093, 0.050, 0.19,
-         "Parts are no finer than a millionth of a triangle, here 10 m: what is near the eye of a triangle "
-         "that goes so far stays open, 1 pixel in 7."},
         {"around the eye", "piecewise", 1e-3, 5.2, 2.1, 0.0053,
          "Corners are rounded to 1e-7 of their distance. Where the plane of a triangle is nearer to the eye "
          "than 1/5000 "
@@ -54,13 +51,12 @@ const std::vector<KnownLimit>& knownLimits() {
         {"fields of view, equidistant", "vertex-warp", 359.9, 0.61, 0.18, 0.0097,
          "The picture is torn at its rim, where parts are drawn to both sides."},
         {"fields of view, stereographic", "vertex-warp", 350, 0.84, 0.67, 0.87,
-         "Parts near straight behind are long: 0.3 px off at 350 degrees on displays of 100 px, and at 359.9 "
-         "most of "
-         "the picture stays open."},
+         "Edges of 4 px are long on displays of 100 px that hold nearly all directions. On those of 512 px 99 "
+         "pixels in 100 are within 0.07 px."},
         {"fields of view, stereographic", "image-based", 359.9, 130, 110, 0.00011,
          "Faces end at 4096 px, and the display magnifies more than these: a texel is up to 100 px wide."},
         {"fields of view, curvilinear", "vertex-warp", 179.9, 0.79, 0.41, 0.060,
-         "The corners of the display see all but straight behind, where parts are too long: gaps."},
+         "As with stereographic lenses."},
         {"fields of view, curvilinear", "image-based", 179.9, 43, 30, 0.00011,
          "As with stereographic lenses."},
         {"eye at a curved wall", "vertex-warp", 1e-2, 2.0, 0.38, 0.0036,

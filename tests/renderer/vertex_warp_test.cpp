@@ -316,16 +316,35 @@ TEST_F(VertexWarp, TrianglesAroundTheEyeLeaveNoSmears) {
     }
 }
 
+// Most of these pictures is what lies straight behind, where the mean of depth and distance is nearly
+// nothing.
+TEST_F(VertexWarp, LensesThatMagnifyWhatLiesBehindAreFilled) {
+    for (const test::LensKind& kind :
+         {test::LensKind{"Stereographic", {RadialModel::stereographic}, 359.9},
+          test::LensKind{"Curvilinear", {RadialModel::stereographic}, 179.9, true}}) {
+        RenderRequest request = warpRequest(test::lensWall(kind, kSizePx), boxRoom({8, 5, 8}), {}, 4);
+        request.measuresError = true;
+        EXPECT_LT(render(request).stats.geometricError.p99Px, 0.25) << kind.name;
+        request.measuresError = false;
+        request.output = OutputKind::coverage;
+        EXPECT_EQ(coverOf(frameOf(request), request.wall->displays[0]).missing, 0) << kind.name;
+    }
+}
+
+// Two triangles 1.7 m below the eye, which is not above the edge that they share.
+Scene groundTo(float reachM) {
+    Scene ground;
+    startMaterial(ground, plainMaterial(glm::vec3(1)));
+    const float furtherM = 0.9f * reachM;
+    addQuad(ground, {glm::vec3(-reachM, -1.7, reachM), glm::vec3(reachM, -1.7, reachM),
+                     glm::vec3(reachM, -1.7, -furtherM), glm::vec3(-reachM, -1.7, -furtherM)});
+    return ground;
+}
+
 // Seen from so close above that its parts differ ten thousand times in size.
 TEST_F(VertexWarp, AGroundToTheHorizonFillsWhatLiesBelow) {
     const auto disagreementsOn = [&](const Wall& wall, float reachM) {
-        Scene ground;
-        startMaterial(ground, plainMaterial(glm::vec3(1)));
-        // The eye is not above the edge that the two triangles share.
-        const float furtherM = 0.9f * reachM;
-        addQuad(ground, {glm::vec3(-reachM, -1.7, reachM), glm::vec3(reachM, -1.7, reachM),
-                         glm::vec3(reachM, -1.7, -furtherM), glm::vec3(-reachM, -1.7, -furtherM)});
-        return disagreements(warpRequest(wall, ground));
+        return disagreements(warpRequest(wall, groundTo(reachM)));
     };
     for (const Wall& wall : {test::fullCylinderWall(kSizePx), test::lensWall(kDome, kSizePx),
                              test::lensWall({"Wide", {RadialModel::equisolid}, 300}, kSizePx)}) {
@@ -335,6 +354,51 @@ TEST_F(VertexWarp, AGroundToTheHorizonFillsWhatLiesBelow) {
     for (const std::string name : {"equirectangular", "sphere-slices"}) {
         EXPECT_LE(disagreementsOn(test::smallShippedWall(name, 4), 10'000), 30) << name;
     }
+}
+
+// How fine its parts are is a matter of the corners nearby, not of those far away. What rays in single
+// precision would meet is no truth here.
+TEST_F(VertexWarp, AStripFromBesideTheEyeMayGoFarAway) {
+    constexpr float kLeftM = -1, kRightM = 0.6f, kBelowM = 1.7f, kAheadM = 3;
+    const auto isOnStrip = [](glm::dvec3 ray) {
+        const glm::dvec3 pointM = ray * (kBelowM / -ray.y);
+        return ray.y < 0 && pointM.x > kLeftM && pointM.x < kRightM && pointM.z > -kAheadM;
+    };
+    for (const float behindM : {1e5f, 1e7f}) {
+        Scene strip;
+        startMaterial(strip, plainMaterial(glm::vec3(1)));
+        addQuad(strip, {glm::vec3(kLeftM, -kBelowM, behindM), glm::vec3(kRightM, -kBelowM, behindM),
+                        glm::vec3(kRightM, -kBelowM, -kAheadM), glm::vec3(kLeftM, -kBelowM, -kAheadM)});
+        for (const Wall& wall : {test::fullCylinderWall(kSizePx), test::lensWall(kDome, kSizePx)}) {
+            RenderRequest request = warpRequest(wall, strip);
+            request.output = OutputKind::coverage;
+            const Frame frame = frameOf(request);
+            int differ = 0;
+            for (int y = 0; y < kSizePx.y; ++y)
+                for (int x = 0; x < kSizePx.x; ++x) {
+                    const auto ray = wall.displays[0].projection->unproject(centreOf({x, y}));
+                    differ += (ray && isOnStrip(*ray)) != (*frame.at(x, y) > 0);
+                }
+            EXPECT_LE(differ, 30) << behindM << " " << wall.name;
+        }
+    }
+}
+
+// Points are known to a ten-millionth of the distances of corners all around. A cylinder does not show what
+// lies below.
+TEST_F(VertexWarp, RefusesToLeaveOpenWhatNeedsFinerPartsThanThereAre) {
+    const auto expectRefusal = [&](const RenderRequest& request) {
+        try {
+            frameOf(request);
+            ADD_FAILURE() << "draws a gap";
+        } catch (const UsageError& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("would stay open"));
+        }
+    };
+    expectRefusal(warpRequest(test::smallShippedWall("equirectangular", 4), groundTo(1e6f)));
+    const test::LensKind lens{"Stereographic", {RadialModel::stereographic}, 359.9999};
+    expectRefusal(warpRequest(test::lensWall(lens, kSizePx), boxRoom({8, 5, 8})));
+    EXPECT_LE(disagreements(warpRequest(test::fullCylinderWall(kSizePx), groundTo(1e6f))), 30);
 }
 
 TEST_F(VertexWarp, WhatLiesBehindTheEyeIsNotShown) {
