@@ -1,7 +1,6 @@
 // curvewall report
 
 #include "calibration/errors.h"
-#include "calibration/stopwatch.h"
 #include "cli/camera_option.h"
 #include "cli/commands.h"
 #include "cli/display_paths.h"
@@ -23,9 +22,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -98,6 +100,15 @@ void requireKnown(const std::vector<std::string>& displays, const std::vector<Vi
             throw UsageError("--display: no wall has a display \"" + name + "\"");
 }
 
+// Runs `measure` under a progress bar.
+template <class Measure>
+auto withProgressBar(const Measure& measure) {
+    ProgressBar bar;
+    return measure([&bar](const Progress& progress) {
+        bar.show(progress.done, progress.all, progress.leftMs, progress.doing);
+    });
+}
+
 void reportSpeed(const ReportCommand& command) {
     if (command.walls.empty()) throw UsageError("report needs a WALL, or --suite hard-cases");
     if (command.scenes.empty()) throw UsageError("report needs a --scene");
@@ -111,41 +122,35 @@ void reportSpeed(const ReportCommand& command) {
     plan.frames = command.frames;
     plan.folder = command.out;
     plan.references = command.references.empty() ? command.out + "/references" : command.references;
-    SpeedReport report;
-    {
-        ProgressBar bar;
-        report = measureSpeed(plan, [&](const MeasurementProgress& progress) {
-            bar.show(progress.done, progress.all, progress.leftMs, progress.doing);
-        });
-    }
+    const SpeedReport report =
+        withProgressBar([&](const OnProgress& onProgress) { return measureSpeed(plan, onProgress); });
     writeReport(command.out, speedDocument(report), report);
 }
 
 void reportHardCases(const ReportCommand& command) {
-    if (!command.walls.empty() || !command.scenes.empty())
-        throw UsageError("--suite hard-cases brings its own walls and scenes");
     makeFolder(command.out);
     SuiteOptions options;
     options.folder = command.out;
     if (command.isQuick) options.sizePx = kQuickSuitePx;
-    const Stopwatch watch;
-    std::vector<FamilyResult> results;
-    {
-        ProgressBar bar;
-        results = runHardCases(options, [&](const SuiteProgress& progress) {
-                      const auto done = static_cast<double>(progress.finishedCases),
-                                 all = static_cast<double>(progress.allCases);
-                      bar.show(progress.finishedCases, progress.allCases,
-                               done == 0 ? 0 : watch.ms() * (all - done) / done, progress.family);
-                  }).value();
-    }
+    const std::vector<FamilyResult> results = withProgressBar(
+        [&](const OnProgress& onProgress) { return runFamilies(hardCaseFamilies(), options, onProgress); });
     auto json = nlohmann::json::array();
     for (const FamilyResult& family : results) json.push_back(toJson(family));
     writeReport(command.out, hardCasesDocument(results), {{"families", json}});
 }
 
-void run(const ReportCommand& command) {
+// The other options are of walls, scenes and measurements, which a suite brings itself.
+void requireOptionsOfSuite(const CLI::App& report) {
+    constexpr std::array<std::string_view, 3> kOfSuite{"--suite", "--out", "--quick"};
+    for (const CLI::Option* option : report.get_options())
+        if (option->count() > 0 && std::ranges::find(kOfSuite, option->get_name()) == kOfSuite.end())
+            throw UsageError("--suite hard-cases brings its own walls and scenes, and takes no " +
+                             option->get_name());
+}
+
+void run(const CLI::App& report, const ReportCommand& command) {
     if (command.suite.empty()) return reportSpeed(command);
+    requireOptionsOfSuite(report);
     reportHardCases(command);
 }
 
@@ -189,7 +194,7 @@ void addReportCommand(CLI::App& app) {
                        "Folder that keeps the truth for other reports; OUT/references without it");
     report->add_option("--suite", command->suite, "hard-cases: the numerical stability suite")
         ->check(CLI::IsMember({"hard-cases"}));
-    report->callback([command] { run(*command); });
+    report->callback([report, command] { run(*report, *command); });
 }
 
 }  // namespace curvewall

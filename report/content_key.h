@@ -36,7 +36,8 @@ std::string keyOfThisProgram();
 
 // Of what a frame of the request shows, whatever draws it: the scene's triangles, materials and texels, the
 // rays of all pixels, blend maps, background, camera and style; of this program, since another version may
-// draw it otherwise; and of the processor, since times are of one machine.
+// draw it otherwise; and of the processor, since times are of one machine. What an OpenGL driver draws has
+// its part beside it (GlDriver in machine.h).
 std::string keyOfView(const RenderRequest& request);
 
 }  // namespace curvewall

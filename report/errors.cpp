@@ -1,6 +1,7 @@
 #include "report/errors.h"
 
 #include "renderer/shown_error.h"
+#include "report/pixel_ranges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,35 +11,53 @@
 namespace curvewall {
 namespace {
 
-struct Range {
-    float least, most;
-};
-
-// Of a one-channel picture, over a pixel and those around it.
-Range rangeAround(const Frame& frame, glm::ivec2 px) {
-    Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
-    for (int y = std::max(px.y - 1, 0); y <= std::min(px.y + 1, frame.sizePx.y - 1); ++y)
-        for (int x = std::max(px.x - 1, 0); x <= std::min(px.x + 1, frame.sizePx.x - 1); ++x) {
-            range.least = std::min(range.least, *frame.at(x, y));
-            range.most = std::max(range.most, *frame.at(x, y));
-        }
-    return range;
+CoverageError coverageError(const Frame& drawn, const Frame& truth, bool isClosed) {
+    const std::vector<Range> exact = rangesAround(truth, isClosed);
+    CoverageError error;
+    for (size_t i = 0; i < exact.size(); ++i) {
+        const float count = drawn.texels[i];
+        if (count == 0 && exact[i].least > 0)
+            ++error.uncoveredPixels;
+        else if (count > 0 && exact[i].most == 0)
+            ++error.overdrawnPixels;
+        else if (count > exact[i].most)
+            ++error.twiceCoveredPixels;
+    }
+    return error;
 }
 
-CoverageError coverageError(const Frame& drawn, const Frame& truth) {
-    CoverageError error;
-    for (int y = 0; y < drawn.sizePx.y; ++y)
-        for (int x = 0; x < drawn.sizePx.x; ++x) {
-            const float count = *drawn.at(x, y);
-            const Range exact = rangeAround(truth, {x, y});
-            if (count == 0 && exact.least > 0)
-                ++error.uncoveredPixels;
-            else if (count > 0 && exact.most == 0)
-                ++error.overdrawnPixels;
-            else if (count > exact.most)
-                ++error.twiceCoveredPixels;
+bool isFinite(const Frame& frame, glm::ivec2 px) {
+    const float* const texel = frame.at(px.x, px.y);
+    return std::all_of(texel, texel + frame.channels, [](float number) { return std::isfinite(number); });
+}
+
+// Where nothing is drawn there is no position: all of its numbers are none.
+bool isEmpty(const Frame& position, glm::ivec2 px) {
+    const float* const texel = position.at(px.x, px.y);
+    return std::all_of(texel, texel + position.channels, [](float number) { return std::isnan(number); });
+}
+
+// 1 where there is a position, 0 elsewhere.
+Frame presenceOf(const Frame& position) {
+    Frame presence{position.sizePx, 1, {}};
+    for (int y = 0; y < position.sizePx.y; ++y)
+        for (int x = 0; x < position.sizePx.x; ++x)
+            presence.texels.push_back(isEmpty(position, {x, y}) ? 0.0f : 1.0f);
+    return presence;
+}
+
+uint64_t nanTexels(const DrawnOutputs& drawn, const Frame& truePosition, bool isClosed) {
+    const std::vector<Range> presence = rangesAround(presenceOf(truePosition), isClosed);
+    uint64_t count = 0;
+    size_t i = 0;
+    for (int y = 0; y < drawn.color.sizePx.y; ++y)
+        for (int x = 0; x < drawn.color.sizePx.x; ++x, ++i) {
+            // What blends with what is behind it covers a pixel without having a position there.
+            const bool hasPosition =
+                !isEmpty(drawn.position, {x, y}) || (drawn.coverage.texels[i] > 0 && presence[i].least > 0);
+            count += !isFinite(drawn.color, {x, y}) || (hasPosition && !isFinite(drawn.position, {x, y}));
         }
-    return error;
+    return count;
 }
 
 }  // namespace
@@ -70,9 +89,9 @@ MethodErrors errorsOf(const DrawnOutputs& drawn, const Truth& truth, const Displ
     errors.image =
         compareColor(drawn.color, knowsMany && drawn.stats.samples > 1 ? truth.supersampled : truth.color);
     if (knowsMany) errors.supersampledPsnrDb = compareColor(drawn.color, truth.supersampled).psnrDb;
-    errors.coverage = coverageError(drawn.coverage, truth.coverage);
-    errors.nanTexels = static_cast<uint64_t>(
-        std::ranges::count_if(drawn.color.texels, [](float v) { return std::isnan(v); }));
+    const bool isClosed = closesOnItself(display);
+    errors.coverage = coverageError(drawn.coverage, truth.coverage, isClosed);
+    errors.nanTexels = nanTexels(drawn, truth.position, isClosed);
     return errors;
 }
 

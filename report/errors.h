@@ -33,7 +33,9 @@ struct MethodErrors {
     ImageDifference image;         // from Truth::color
     CoverageError coverage;
     double supersampledPsnrDb = 0;  // against Truth::supersampled; 0 without it
-    uint64_t nanTexels = 0;         // of the colour
+    // Pixels whose colour is no finite number, or whose position is none though they show something and the
+    // truth has one at all nine.
+    uint64_t nanTexels = 0;
 };
 
 // What a method draws of one request; the camera, scene and display are those of the truth.

@@ -1,5 +1,7 @@
 #include "report/machine.h"
 
+#include "renderer/gl/egl_context.h"
+
 #include <fmt/core.h>
 
 #include <fstream>
@@ -17,6 +19,11 @@ std::string processorName() {
             break;
         }
     return fmt::format("{}, {} threads", name, std::thread::hardware_concurrency());
+}
+
+GlDriver glDriver() {
+    const EglContext context;
+    return {context.rendererName(), context.version()};
 }
 
 }  // namespace curvewall

@@ -1,5 +1,6 @@
 #include "report/code_spans.h"
 #include "report/document.h"
+#include "report/text_file.h"
 
 #include <fmt/format.h>
 
@@ -121,7 +122,7 @@ void writePlots(const Document& document, const std::string& folder) {
         std::filesystem::create_directories(path.parent_path(), error);
         if (error)
             throw std::runtime_error(path.parent_path().string() + ": cannot be made: " + error.message());
-        drawPlot(figure->plot, path.string());
+        writeTextFile(path.string(), pngOf(figure->plot));
     }
 }
 

@@ -3,7 +3,6 @@
 #include "report/axis.h"
 #include "report/curve_style.h"
 #include "report/gnuplot.h"
-#include "report/text_file.h"
 
 #include <fmt/format.h>
 
@@ -25,10 +24,6 @@ constexpr int kLegendMarkPx = 62;
 constexpr double kLetterPx = 0.56 * kFontPx;  // of the usual fonts, on average
 
 bool isOnAxis(double value, bool logarithmic) { return std::isfinite(value) && (!logarithmic || value > 0); }
-
-bool isVisible(const Plot& plot, glm::dvec2 point) {
-    return isOnAxis(point.x, plot.logarithmicX) && isOnAxis(point.y, plot.logarithmicY);
-}
 
 std::vector<glm::dvec2> visiblePoints(const Plot& plot, std::vector<glm::dvec2> points) {
     std::erase_if(points, [&](glm::dvec2 point) { return !isVisible(plot, point); });
@@ -122,10 +117,10 @@ void writeCurves(std::ostream& out, const Plot& plot, const Axes& axes, double m
                           : "plot $front with steps linewidth 7 linecolor rgb '#90808080' notitle");
     for (size_t i = 0; i < plot.curves.size(); ++i) {
         const bool isEmpty = visiblePoints(plot, plot.curves[i].points).empty();
-        out << fmt::format(", {} with {} linewidth 2 linecolor rgb '{}' pointtype {} pointsize {} title {}",
-                           isEmpty ? "NaN" : fmt::format("$curve{} using 1:2", i),
-                           plot.curves[i].connected ? "linespoints" : "points", styles[i].color,
-                           styles[i].mark, markSize, gnuplotQuoted(names[i]));
+        out << fmt::format(
+            ", {} with linespoints linewidth 2 linecolor rgb '{}' pointtype {} pointsize {} title {}",
+            isEmpty ? "NaN" : fmt::format("$curve{} using 1:2", i), styles[i].color, styles[i].mark, markSize,
+            gnuplotQuoted(names[i]));
     }
     writeLevels(out, plot);
     out << "\n";
@@ -144,15 +139,6 @@ std::string scriptOf(const Plot& plot, const Terminal& terminal) {
     writeAxis(out, 'y', axes.y, plot.logarithmicY, plot.yLabel);
     writeCurves(out, plot, axes, terminal.markSize);
     return out.str();
-}
-
-std::string pngOf(const Plot& plot, int widthPx) {
-    const double scale = static_cast<double>(widthPx) / kLayoutWidthPx;
-    const int heightPx = static_cast<int>(std::lround(scale * layoutHeightPx(plot)));
-    const std::string options =
-        fmt::format("pngcairo noenhanced size {},{} font 'sans,{}' fontscale {} linewidth {} pointscale {}",
-                    widthPx, heightPx, kFontPx * 3 / 4, scale, scale, scale);
-    return gnuplotOutput(scriptOf(plot, {options, 1.1, 1.2}));
 }
 
 void prefixIds(pugi::xml_node node, const std::string& prefix) {
@@ -189,6 +175,10 @@ void labelPoints(pugi::xml_node group, const Plot& plot, const Curve& curve) {
 
 }  // namespace
 
+bool isVisible(const Plot& plot, glm::dvec2 point) {
+    return isOnAxis(point.x, plot.logarithmicX) && isOnAxis(point.y, plot.logarithmicY);
+}
+
 std::vector<glm::dvec2> paretoFront(std::vector<glm::dvec2> points, bool moreIsBetterY) {
     std::erase_if(points, [](glm::dvec2 p) { return std::isnan(p.x) || std::isnan(p.y); });
     const auto isBetterY = [&](double a, double b) { return moreIsBetterY ? a > b : a < b; };
@@ -198,6 +188,15 @@ std::vector<glm::dvec2> paretoFront(std::vector<glm::dvec2> points, bool moreIsB
     for (const glm::dvec2 point : points)
         if (front.empty() || isBetterY(point.y, front.back().y)) front.push_back(point);
     return front;
+}
+
+std::string pngOf(const Plot& plot) {
+    constexpr double kScale = static_cast<double>(kPlotWidthPx) / kLayoutWidthPx;
+    const int heightPx = static_cast<int>(std::lround(kScale * layoutHeightPx(plot)));
+    const std::string options =
+        fmt::format("pngcairo noenhanced size {},{} font 'sans,{}' fontscale {} linewidth {} pointscale {}",
+                    kPlotWidthPx, heightPx, kFontPx * 3 / 4, kScale, kScale, kScale);
+    return gnuplotOutput(scriptOf(plot, {options, 1.1, 1.2}));
 }
 
 std::string svgOf(const Plot& plot, const std::string& idPrefix) {
@@ -224,15 +223,6 @@ std::string svgOf(const Plot& plot, const std::string& idPrefix) {
     std::ostringstream out;
     document.save(out, "", pugi::format_raw);
     return out.str();
-}
-
-void drawPlot(const Plot& plot, const std::string& path, int widthPx) {
-    if (path.ends_with(".svg"))
-        writeTextFile(path, svgOf(plot, "plot"));
-    else if (path.ends_with(".png"))
-        writeTextFile(path, pngOf(plot, widthPx));
-    else
-        throw std::runtime_error(path + ": expected a file name that ends in .png or .svg");
 }
 
 }  // namespace curvewall

@@ -11,7 +11,6 @@ namespace curvewall {
 struct Curve {
     std::string name;
     std::vector<glm::dvec2> points;  // in the order of their line; those off a logarithmic axis are left out
-    bool connected = true;
     std::vector<std::string> labels{};  // of the points, shown on pointing at one in SVG; none or as many
 };
 
@@ -34,15 +33,17 @@ struct Plot {
 // choosing. From left to right; points that are no numbers are left out.
 std::vector<glm::dvec2> paretoFront(std::vector<glm::dvec2> points, bool moreIsBetterY = false);
 
-// Width and height are to each other as the plot and its legend need it.
+// Whether the axes have a place for the point: a logarithmic one has none for 0.
+bool isVisible(const Plot& plot, glm::dvec2 point);
+
+// Both throw std::runtime_error where gnuplot is not there or fails.
+
+// A PNG file, as high as the plot and its legend need it.
 inline constexpr int kPlotWidthPx = 1120;
+std::string pngOf(const Plot& plot);
 
-// PNG or SVG by the path's extension, of which the SVG has no size of its own. Throws std::runtime_error
-// where gnuplot is not there or fails, and where the file cannot be written.
-void drawPlot(const Plot& plot, const std::string& path, int widthPx = kPlotWidthPx);
-
-// All ids begin with `idPrefix` (letters and digits), so that several pictures fit into one page. Lines and
-// texts have the colour of the text around, the paper none.
+// Without a size of its own. All ids begin with `idPrefix` (letters and digits), so that several pictures fit
+// into one page. Lines and texts have the colour of the text around, the paper none.
 std::string svgOf(const Plot& plot, const std::string& idPrefix);
 
 }  // namespace curvewall

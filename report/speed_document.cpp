@@ -158,8 +158,7 @@ void addView(std::vector<Block>& blocks, const ViewReport& view, double toleranc
     blocks.emplace_back(Heading{2, viewName(view)});
     blocks.emplace_back(Paragraph{
         fmt::format("{} x {} pixels, projection `{}`.", view.sizePx.x, view.sizePx.y, view.projection)});
-    for (PlotFigure& figure : speedPlots(view, tolerancePx, "plots/" + stem))
-        blocks.emplace_back(std::move(figure));
+    for (Block& block : speedPlots(view, tolerancePx, "plots/" + stem)) blocks.push_back(std::move(block));
     addPictures(blocks, view);
     blocks.emplace_back(Heading{3, "All settings"});
     blocks.emplace_back(settingsTable(view, recommend(view, tolerancePx).best));

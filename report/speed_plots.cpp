@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <set>
 
 namespace curvewall {
@@ -15,18 +16,29 @@ namespace {
 
 constexpr size_t kMostCurves = 10;
 
-using Measure = std::function<double(const SettingResult&)>;
+// Nothing where there is no such number of a setting.
+using Measure = std::function<std::optional<double>(const SettingResult&)>;
 
 double geometricPx(const SettingResult& result) { return result.errors.geometric.maxPx; }
 // Below this all there is are the roundings of floats.
 constexpr double kLeastShownPx = 0.001;
 double shownGeometricPx(const SettingResult& result) { return std::max(geometricPx(result), kLeastShownPx); }
 double wrongPercent(const SettingResult& result) { return 100 * result.errors.image.shareOff; }
-// Of several samples a pixel there is no such number, and the curve has no such point.
-double wrongEdgesPercent(const SettingResult& result) {
-    return result.edges ? 100 * result.edges->shareOff : 0;
+std::optional<double> wrongEdgesPercent(const SettingResult& result) {
+    if (!result.edges) return std::nullopt;
+    return 100 * result.edges->shareOff;
 }
 double supersampledDb(const SettingResult& result) { return result.errors.supersampledPsnrDb; }
+
+// Time against one error.
+struct ErrorPlot {
+    Plot plot;  // but for what depends on the settings
+    Measure measure;
+    std::string unit;
+    std::string name;  // in that of its file
+    std::string caption;
+    std::string wherePerfect{};  // what to say where no setting has such an error
+};
 
 // With its samples where these are not what is turned.
 std::string curveOf(const SettingName& setting) {
@@ -34,20 +46,21 @@ std::string curveOf(const SettingName& setting) {
     return fmt::format("{}, {} samples", setting.curve(), setting.samples);
 }
 
-std::string pointLabel(const SettingResult& result, const Measure& measure, const std::string& unit) {
+std::string pointLabel(const SettingResult& result, double error, const std::string& unit) {
     return fmt::format("{}: {} ms, {} {}", result.setting.text(), measureText(result.frameMs.median),
-                       measureText(measure(result)), unit);
+                       measureText(error), unit);
 }
 
 std::vector<Curve> curvesOf(const ViewReport& view, const Measure& measure, const std::string& unit) {
     std::vector<Curve> curves;
     for (const SettingResult& result : view.settings) {
-        if (!result.refusal.empty()) continue;
+        const std::optional<double> error = result.refusal.empty() ? measure(result) : std::nullopt;
+        if (!error) continue;
         const std::string name = curveOf(result.setting);
         auto curve = std::ranges::find(curves, name, &Curve::name);
-        if (curve == curves.end()) curve = curves.insert(curves.end(), Curve{name, {}, true, {}});
-        curve->points.emplace_back(result.frameMs.median, measure(result));
-        curve->labels.push_back(pointLabel(result, measure, unit));
+        if (curve == curves.end()) curve = curves.insert(curves.end(), Curve{name, {}, {}});
+        curve->points.emplace_back(result.frameMs.median, *error);
+        curve->labels.push_back(pointLabel(result, *error, unit));
     }
     return curves;
 }
@@ -93,59 +106,121 @@ std::vector<Level> floorLevels(const ViewReport& view,
     return levels;
 }
 
-std::string viewTitle(const ViewReport& view) {
-    return fmt::format("{}, {}, {}", view.wall, view.display, view.scene);
+// Of settings that the plot would show if its axes had a place for them.
+std::string unseenSettings(const ViewReport& view, const ErrorPlot& error,
+                           const std::set<std::string>& shown) {
+    constexpr size_t kMostNamed = 4;
+    std::string names;
+    size_t count = 0;
+    for (const SettingResult& result : view.settings) {
+        if (!result.refusal.empty() || !shown.contains(curveOf(result.setting))) continue;
+        const std::optional<double> y = error.measure(result);
+        if (!y || isVisible(error.plot, {1, *y})) continue;
+        if (++count <= kMostNamed) names += (count == 1 ? "" : "; ") + settingText(result.setting);
+    }
+    if (count == 0) return "";
+    if (count > kMostNamed) names += fmt::format("; and {} more", count - kMostNamed);
+    const char* const why = error.plot.logarithmicY ? "with an error of 0" : "equal to the truth";
+    return fmt::format(" Not shown, {}: {}.", why, names);
 }
 
-PlotFigure figureOf(const ViewReport& view, Plot plot, const Measure& measure, const std::string& unit) {
-    plot.curves = curvesOf(view, measure, unit);
+std::string unseenLevels(const Plot& plot) {
+    std::string text;
+    for (const Level& level : plot.levels)
+        if (!isVisible(plot, {1, level.y}))
+            text += fmt::format(" No line shows the {}, which is {}.", level.name, measureText(level.y));
+    return text;
+}
+
+bool showsAnything(const Plot& plot) {
+    return std::ranges::any_of(allPoints(plot.curves), [&](glm::dvec2 p) { return isVisible(plot, p); });
+}
+
+PlotFigure figureOf(const ViewReport& view, const ErrorPlot& error, const std::string& stem) {
+    Plot plot = error.plot;
     std::vector<Curve> judged = plot.curves;
     std::erase_if(judged, [](const Curve& curve) { return methodOf(curve.name) == "reference"; });
     std::vector<glm::dvec2> points = allPoints(judged);
-    // What a logarithmic axis cannot show must not be what shuts everything else out of the front.
-    std::erase_if(points, [&](glm::dvec2 p) { return plot.logarithmicY ? !(p.y > 0) : !std::isfinite(p.y); });
+    // What the axes cannot show must not be what shuts everything else out of the front.
+    std::erase_if(points, [&](glm::dvec2 p) { return !isVisible(plot, p); });
     plot.front = paretoFront(points, plot.moreIsBetterY);
     const std::set<std::string> shown = shownCurves(view);
     std::erase_if(plot.curves, [&](const Curve& curve) { return !shown.contains(curve.name); });
-    plot.title = viewTitle(view);
+    plot.title = fmt::format("{}, {}, {}", view.wall, view.display, view.scene);
     plot.xLabel = "time of a frame, ms";
-    return {plot, {}};
+    return {plot,
+            {fmt::format("{}-{}.png", stem, error.name),
+             error.caption + unseenSettings(view, error, shown) + unseenLevels(plot)}};
+}
+
+ErrorPlot geometricPlot(double tolerancePx) {
+    ErrorPlot error{
+        {},
+        shownGeometricPx,
+        "px",
+        "geometric",
+        "Time against the largest geometric error. Less than 0.001 px is drawn as 0.001 px. Lower "
+        "left is better."};
+    error.plot.yLabel = "largest geometric error, px";
+    error.plot.levels = {{fmt::format("asked for: {} px", measureText(tolerancePx)), tolerancePx}};
+    return error;
+}
+
+ErrorPlot edgesPlot(const ViewReport& view) {
+    ErrorPlot error{
+        {},
+        wrongEdgesPercent,
+        "% wrong",
+        "wrong-edges",
+        "Time against the share of wrong edges: what is shown at the wrong place, whatever filters "
+        "textures. Lower left is better.",
+        "No setting has a wrong edge, so that there is no plot of them."};
+    error.plot.yLabel = "wrong edges, %";
+    error.plot.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.edgesOff; });
+    return error;
+}
+
+ErrorPlot pixelsPlot(const ViewReport& view) {
+    ErrorPlot error{{},
+                    wrongPercent,
+                    "% wrong",
+                    "wrong-pixels",
+                    "Time against the share of wrong pixels. Lower left is better.",
+                    "No setting has a wrong pixel, so that there is no plot of them."};
+    error.plot.yLabel = "wrong pixels, %";
+    error.plot.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.shareOff; });
+    return error;
+}
+
+ErrorPlot likenessPlot(const ViewReport& view) {
+    ErrorPlot error{{},
+                    supersampledDb,
+                    "dB",
+                    "supersampled",
+                    "Time against likeness to the supersampled truth. Upper left is better; blur counts as "
+                    "likeness.",
+                    "Every setting equals the supersampled truth, so that there is no plot of likeness."};
+    error.plot.yLabel = fmt::format("PSNR against {} rays a pixel, dB", view.truth.supersamples);
+    error.plot.logarithmicY = false;
+    error.plot.moreIsBetterY = true;
+    error.plot.levels =
+        floorLevels(view, [](const SamplingFloor& floor) { return floor.supersampledPsnrDb; });
+    return error;
 }
 
 }  // namespace
 
-std::vector<PlotFigure> speedPlots(const ViewReport& view, double tolerancePx, const std::string& stem) {
-    Plot geometric;
-    geometric.yLabel = "largest geometric error, px";
-    geometric.levels = {{fmt::format("asked for: {} px", measureText(tolerancePx)), tolerancePx}};
-    Plot wrong;
-    wrong.yLabel = "wrong pixels, %";
-    wrong.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.shareOff; });
-    Plot edges;
-    edges.yLabel = "wrong edges, %";
-    edges.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.edgesOff; });
-    Plot psnr;
-    psnr.yLabel = fmt::format("PSNR against {} rays a pixel, dB", view.truth.supersamples);
-    psnr.logarithmicY = false;
-    psnr.moreIsBetterY = true;
-    psnr.levels = floorLevels(view, [](const SamplingFloor& floor) { return floor.supersampledPsnrDb; });
-
-    std::vector<PlotFigure> figures{figureOf(view, geometric, shownGeometricPx, "px"),
-                                    figureOf(view, edges, wrongEdgesPercent, "% wrong"),
-                                    figureOf(view, wrong, wrongPercent, "% wrong"),
-                                    figureOf(view, psnr, supersampledDb, "dB")};
-    figures[0].picture = {stem + "-geometric.png",
-                          "Time against the largest geometric error. Less than 0.001 px is drawn as 0.001 "
-                          "px. Lower left is better."};
-    figures[1].picture = {stem + "-wrong-edges.png",
-                          "Time against the share of wrong edges: what is shown at the wrong place, whatever "
-                          "filters textures. Lower left is better."};
-    figures[2].picture = {stem + "-wrong-pixels.png",
-                          "Time against the share of wrong pixels. Lower left is better."};
-    figures[3].picture = {
-        stem + "-supersampled.png",
-        "Time against likeness to the supersampled truth. Upper left is better; blur counts as likeness."};
-    std::erase_if(figures, [](const PlotFigure& figure) { return figure.plot.front.empty(); });
+std::vector<Block> speedPlots(const ViewReport& view, double tolerancePx, const std::string& stem) {
+    std::vector<Block> figures, notes;
+    for (ErrorPlot error :
+         {geometricPlot(tolerancePx), edgesPlot(view), pixelsPlot(view), likenessPlot(view)}) {
+        error.plot.curves = curvesOf(view, error.measure, error.unit);
+        if (showsAnything(error.plot))
+            figures.emplace_back(figureOf(view, error, stem));
+        else if (!error.plot.curves.empty())
+            notes.emplace_back(Paragraph{error.wherePerfect});
+    }
+    figures.insert(figures.end(), notes.begin(), notes.end());
     return figures;
 }
 

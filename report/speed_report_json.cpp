@@ -139,27 +139,11 @@ void to_json(json& out, const ViewReport& view) {
            {"settings", view.settings}};
 }
 
-void from_json(const json& in, ViewReport& view) {
-    view.wall = in.at("wall");
-    view.display = in.at("display");
-    view.scene = in.at("scene");
-    view.sizePx = {in.at("size").at(0), in.at("size").at(1)};
-    view.projection = in.at("projection");
-    view.truth = in.at("truth");
-    view.floors = in.at("sampling_floors").get<std::vector<SamplingFloor>>();
-    view.settings = in.at("settings").get<std::vector<SettingResult>>();
-}
-
 void to_json(json& out, const SpeedReport& report) {
     out = {{"gl_renderer", report.glRenderer},
            {"processor", report.processor},
            {"tolerance_px", report.tolerancePx},
            {"views", report.views}};
-}
-
-void from_json(const json& in, SpeedReport& report) {
-    report = {in.at("gl_renderer"), in.at("processor"), in.at("tolerance_px"), {}};
-    report.views = in.at("views").get<std::vector<ViewReport>>();
 }
 
 }  // namespace curvewall

@@ -1,6 +1,6 @@
 #pragma once
-// report.json (docs/report.md): nlohmann::json(report), and json.get<SpeedReport>() with every digit.
-// JSON has no infinity, which a PSNR may be: null stands for it.
+// report.json (docs/report.md): nlohmann::json(report). What measurements keep in files of their own is read
+// again with every digit. JSON has no infinity, which a PSNR may be: null stands for it.
 
 #include "report/speed_report.h"
 
@@ -19,8 +19,6 @@ void from_json(const nlohmann::json& json, TruthFacts& truth);
 void to_json(nlohmann::json& json, const SamplingFloor& floor);
 void from_json(const nlohmann::json& json, SamplingFloor& floor);
 void to_json(nlohmann::json& json, const ViewReport& view);
-void from_json(const nlohmann::json& json, ViewReport& view);
 void to_json(nlohmann::json& json, const SpeedReport& report);
-void from_json(const nlohmann::json& json, SpeedReport& report);
 
 }  // namespace curvewall

@@ -89,6 +89,15 @@ constexpr KeptPicture kPictures[] = {{&Truth::color, OutputKind::color, "color"}
                                      {&Truth::coverage, OutputKind::coverage, "coverage"},
                                      {&Truth::supersampled, OutputKind::color, "supersampled"}};
 
+// How the names of its files begin.
+std::string truthStem(const std::string& viewKey, const Supersampling& supersampling,
+                      const std::string& folder) {
+    return fmt::format("{}/{}-{}x{}", folder, viewKey.substr(0, kShortKey), supersampling.raysAPass,
+                       2 * supersampling.mostPairs);
+}
+
+std::string factsPath(const std::string& stem) { return stem + ".json"; }
+
 }  // namespace
 
 KnownTruth traceTruth(const RenderRequest& request, const Supersampling& supersampling) {
@@ -101,15 +110,16 @@ KnownTruth traceTruth(const RenderRequest& request, const Supersampling& supersa
     return truth;
 }
 
+bool isTruthKept(const std::string& viewKey, const Supersampling& supersampling, const std::string& folder) {
+    return std::filesystem::exists(factsPath(truthStem(viewKey, supersampling, folder)));
+}
+
 KnownTruth keptTruth(const RenderRequest& request, const std::string& viewKey,
                      const Supersampling& supersampling, const std::string& folder) {
-    const std::string stem = fmt::format("{}/{}-{}x{}", folder, viewKey.substr(0, kShortKey),
-                                         supersampling.raysAPass, 2 * supersampling.mostPairs);
+    const std::string stem = truthStem(viewKey, supersampling, folder);
     const auto pathOf = [&](const KeptPicture& kept) { return fmt::format("{}-{}.exr", stem, kept.name); };
-    const std::string factsPath = stem + ".json";
-
     KnownTruth truth;
-    if (const auto facts = keptValue<TruthFacts>(factsPath)) {
+    if (const auto facts = keptValue<TruthFacts>(factsPath(stem))) {
         truth.facts = *facts;
         try {
             for (const KeptPicture& kept : kPictures) truth.pictures.*kept.picture = readFrame(pathOf(kept));
@@ -123,7 +133,7 @@ KnownTruth keptTruth(const RenderRequest& request, const std::string& viewKey,
     for (const KeptPicture& kept : kPictures)
         writeFrame(pathOf(kept), truth.pictures.*kept.picture, kept.output);
     // Last: where it is, the pictures are complete.
-    keepJson(factsPath, truth.facts);
+    keepJson(factsPath(stem), truth.facts);
     return truth;
 }
 

@@ -24,6 +24,9 @@ struct KnownTruth {
 // what they differ by is four times, in power, what their mean is off.
 KnownTruth traceTruth(const RenderRequest& request, const Supersampling& supersampling);
 
+// Whether `folder` has it, if its files are whole: then keptTruth need not trace.
+bool isTruthKept(const std::string& viewKey, const Supersampling& supersampling, const std::string& folder);
+
 // Reads from `folder` what is there for the same content (`viewKey`, see keyOfView) and supersampling, or
 // traces it and puts it there. Throws std::runtime_error where that cannot be written.
 KnownTruth keptTruth(const RenderRequest& request, const std::string& viewKey,

@@ -107,6 +107,7 @@ EglContext::EglContext() : handles_(std::make_unique<Handles>()) {
             "packages "
             "libegl1, libegl-mesa0 and libgl1-mesa-dri");
     rendererName_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
     if (kDebugContext) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);

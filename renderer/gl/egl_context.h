@@ -24,12 +24,13 @@ public:
     EglContext& operator=(const EglContext&) = delete;
 
     const std::string& rendererName() const { return rendererName_; }
-    bool isSoftware() const;  // one of Mesa's renderers without a GPU
+    const std::string& version() const { return version_; }  // of OpenGL, and what the driver calls its own
+    bool isSoftware() const;                                 // one of Mesa's renderers without a GPU
 
 private:
     struct Handles;
     std::unique_ptr<Handles> handles_;
-    std::string rendererName_;
+    std::string rendererName_, version_;
 };
 
 }  // namespace curvewall

@@ -1,11 +1,14 @@
 #include "report/hard_cases/suite.h"
 
 #include "calibration/errors.h"
+#include "calibration/stopwatch.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/image_file.h"
 #include "report/content_key.h"
 #include "report/hard_cases/wrong_pixels.h"
 #include "report/kept_json.h"
+#include "report/machine.h"
+#include "report/step_clock.h"
 #include "report/words.h"
 
 #include <fmt/format.h>
@@ -13,12 +16,15 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace curvewall {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kGuessedCaseMs = 5'000;  // until one has been run
 
 std::vector<HardCaseMethod> methodsOf(const SuiteOptions& options) {
     std::vector<HardCaseMethod> methods = hardCaseMethods();
@@ -85,6 +91,7 @@ public:
         : renderer_(renderer), family_(family), options_(options), methods_(methodsOf(options)) {
         result_.family = family.name;
         result_.sizePx = options.sizePx;
+        if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
     }
 
     void runCase(double value) {
@@ -158,80 +165,98 @@ private:
     FamilyResult result_;
 };
 
-// All that a family's results depend on, as far as it can be told.
-json keyOf(const HardCaseFamily& family, const SuiteOptions& options) {
-    json key{{"program", keyOfThisProgram()},
-             {"family", family.name},
-             {"values", family.values},
-             {"size_px", options.sizePx},
-             {"methods", json::array()}};
-    for (const HardCaseMethod& method : methodsOf(options))
-        key["methods"].push_back(
-            {method.name, fmt::format("{:g} {:g}", method.bounds.maxPx, method.bounds.p99Px)});
-    return key;
-}
+// What earlier runs left of families in the folder, if there is one.
+class KeptFamilies {
+public:
+    KeptFamilies(const SuiteOptions& options, GlDriver driver)
+        : options_(options), driver_(std::move(driver)) {}
 
-std::string keptFile(const HardCaseFamily& family, const SuiteOptions& options) {
-    return (std::filesystem::path(options.folder) / ("hard-case-" + stemOf(family.name) + ".json")).string();
-}
-
-// Nothing where the file is another's, of another run or damaged: the family is run again then.
-std::optional<FamilyResult> keptResult(const HardCaseFamily& family, const SuiteOptions& options) {
-    if (options.folder.empty()) return std::nullopt;
-    const std::optional<json> kept = keptJson(keptFile(family, options));
-    try {
-        if (!kept || kept->at("key") != keyOf(family, options)) return std::nullopt;
-        FamilyResult result = familyResultFromJson(kept->at("result"));
-        for (const CasePicture& picture : result.pictures)
-            if (!std::filesystem::exists(std::filesystem::path(options.folder) / picture.file))
-                return std::nullopt;
-        return result;
-    } catch (const json::exception&) {
-        return std::nullopt;
+    // Nothing where the file is another's, of another run or damaged: the family is run again then.
+    std::optional<FamilyResult> find(const HardCaseFamily& family) const {
+        if (options_.folder.empty()) return std::nullopt;
+        const std::optional<json> kept = keptJson(inFolder(fileOf(family)));
+        try {
+            if (!kept || kept->at("key") != keyOf(family)) return std::nullopt;
+            FamilyResult result = familyResultFromJson(kept->at("result"));
+            for (const CasePicture& picture : result.pictures)
+                if (!std::filesystem::exists(inFolder(picture.file))) return std::nullopt;
+            return result;
+        } catch (const json::exception&) {
+            return std::nullopt;
+        }
     }
-}
+
+    void keep(const HardCaseFamily& family, const FamilyResult& result) const {
+        if (!options_.folder.empty())
+            keepJson(inFolder(fileOf(family)), {{"key", keyOf(family)}, {"result", toJson(result)}});
+    }
+
+private:
+    static std::string fileOf(const HardCaseFamily& family) {
+        return "hard-case-" + stemOf(family.name) + ".json";
+    }
+    std::string inFolder(const std::string& file) const {
+        return (std::filesystem::path(options_.folder) / file).string();
+    }
+
+    // All that a family's results depend on, as far as it can be told.
+    json keyOf(const HardCaseFamily& family) const {
+        json key{{"program", keyOfThisProgram()},   {"processor", processorName()},
+                 {"gl_renderer", driver_.renderer}, {"gl_version", driver_.version},
+                 {"family", family.name},           {"values", family.values},
+                 {"size_px", options_.sizePx},      {"methods", json::array()}};
+        for (const HardCaseMethod& method : methodsOf(options_))
+            key["methods"].push_back(
+                {method.name, fmt::format("{:g} {:g}", method.bounds.maxPx, method.bounds.p99Px)});
+        return key;
+    }
+
+    const SuiteOptions& options_;
+    GlDriver driver_;
+};
 
 }  // namespace
 
-std::optional<FamilyResult> runFamily(Renderer& renderer, const HardCaseFamily& family,
-                                      const SuiteOptions& options, const OnSuiteProgress& onProgress,
-                                      const std::stop_token& stop) {
-    if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
+FamilyResult runFamily(Renderer& renderer, const HardCaseFamily& family, const SuiteOptions& options) {
     FamilyRun run(renderer, family, options);
-    for (size_t i = 0; i < family.values.size(); ++i) {
-        if (stop.stop_requested()) return std::nullopt;
-        if (onProgress) onProgress({family.name, family.values[i], i, family.values.size()});
-        run.runCase(family.values[i]);
-    }
+    for (const double value : family.values) run.runCase(value);
     return run.take();
 }
 
-std::optional<std::vector<FamilyResult>> runHardCases(const SuiteOptions& options,
-                                                      const OnSuiteProgress& onProgress,
-                                                      const std::stop_token& stop) {
-    const std::vector<HardCaseFamily> families = hardCaseFamilies();
-    size_t finished = 0, all = 0;
-    for (const HardCaseFamily& family : families) all += family.values.size();
-    std::vector<FamilyResult> results;
+std::vector<FamilyResult> runFamilies(const std::vector<HardCaseFamily>& families,
+                                      const SuiteOptions& options, const OnProgress& onProgress) {
+    const KeptFamilies kept(options, glDriver());
+    std::vector<std::optional<FamilyResult>> results;
+    Progress progress;
+    StepClock clock(kGuessedCaseMs);
     for (const HardCaseFamily& family : families) {
-        std::optional<FamilyResult> result = keptResult(family, options);
-        if (!result) {
-            // It keeps what belongs to scenes and displays, and each case has others.
-            Renderer renderer(1);
-            const auto onCase = [&](const SuiteProgress& progress) {
-                if (onProgress)
-                    onProgress({progress.family, progress.value, finished + progress.finishedCases, all});
-            };
-            result = runFamily(renderer, family, options, onCase, stop);
-            if (!result) return std::nullopt;
-            if (!options.folder.empty())
-                keepJson(keptFile(family, options),
-                         {{"key", keyOf(family, options)}, {"result", toJson(*result)}});
-        }
-        finished += family.values.size();
-        results.push_back(std::move(*result));
+        results.push_back(kept.find(family));
+        progress.all += family.values.size();
+        if (!results.back()) clock.expect(family.values.size());
     }
-    return results;
+    const auto run = [&](const HardCaseFamily& family) {
+        // It keeps what belongs to scenes and displays, and each case has others.
+        Renderer renderer(1);
+        FamilyRun cases(renderer, family, options);
+        for (const double value : family.values) {
+            progress.leftMs = clock.leftMs();
+            progress.doing = family.name;
+            onProgress(progress);
+            const Stopwatch watch;
+            cases.runCase(value);
+            clock.took(watch.ms());
+            ++progress.done;
+        }
+        FamilyResult result = cases.take();
+        kept.keep(family, result);
+        return result;
+    };
+    std::vector<FamilyResult> all;
+    for (size_t i = 0; i < families.size(); ++i) {
+        if (results[i]) progress.done += families[i].values.size();
+        all.push_back(results[i] ? std::move(*results[i]) : run(families[i]));
+    }
+    return all;
 }
 
 }  // namespace curvewall

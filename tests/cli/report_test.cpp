@@ -77,6 +77,12 @@ TEST_F(ReportProgram, SaysWhatItNeeds) {
     EXPECT_THAT(messageOf(wall_ + " --scene room --display middle"), HasSubstr("left"));
     EXPECT_THAT(messageOf(wall_ + " --scene room --display left --display rigth"), HasSubstr("rigth"));
     EXPECT_THAT(messageOf(wall_ + " --scene room --suite hard-cases"), HasSubstr("its own walls"));
+    for (const std::string option :
+         {"--camera 0,0,0", "--eye 0,0,0", "--tolerance 0.25", "--display left", "--size 64x48",
+          "--style unlit", "--rounds 3", "--frames 3", "--references truth"})
+        EXPECT_THAT(messageOf("--suite hard-cases --quick " + option),
+                    HasSubstr("takes no " + option.substr(0, option.find(' '))));
+    EXPECT_THAT(messageOf(wall_ + " --suite hard-cases"), HasSubstr("takes no WALL"));
     EXPECT_THAT(messageOf("--suite soft-cases"), HasSubstr("hard-cases"));
     EXPECT_THAT(messageOf(wall_ + " --scene room --rounds 0"), HasSubstr("--rounds"));
     EXPECT_FALSE(std::filesystem::exists(file("out")));

@@ -30,7 +30,14 @@ protected:
     ErrorsOf() : wall_(test::smallShippedWall("planar-90", 1)) {
         wall_.displays[0].sizePx = kSizePx;
         truth_.color = drawn_.color = constantFrame(3, 0.5f);
-        truth_.position = drawn_.position = constantFrame(3, std::nanf(""));
+        drawn_.position = constantFrame(3, 0);
+        for (int y = 0; y < kSizePx.y; ++y)
+            for (int x = 0; x < kSizePx.x; ++x) {
+                const auto ray = wall_.displays[0].projection->unproject({x + 0.5, y + 0.5}).value();
+                for (int axis = 0; axis < 3; ++axis)
+                    (&texel(drawn_.position, x, y))[axis] = static_cast<float>(ray[axis]);
+            }
+        truth_.position = drawn_.position;
         truth_.coverage = drawn_.coverage = constantFrame(1, 2);
     }
     MethodErrors errors() const { return errorsOf(drawn_, truth_, wall_.displays[0]); }
@@ -74,9 +81,8 @@ TEST_F(ErrorsOf, MoreSurfacesThanTheTruthHasAnywhereNearCountAsTwiceCovered) {
 }
 
 TEST_F(ErrorsOf, PointsThatTheDisplayDoesNotSeeAreCountedApart) {
-    const glm::vec3 ahead(wall_.displays[0].projection->unproject({3.5, 4.5}).value());
     for (int axis = 0; axis < 3; ++axis) {
-        (&texel(drawn_.position, 3, 4))[axis] = 5 * ahead[axis];
+        (&texel(drawn_.position, 3, 4))[axis] *= 5;                         // on its ray all the same
         (&texel(drawn_.position, 30, 20))[axis] = axis == 2 ? 1.0f : 0.0f;  // straight behind
     }
     const MethodErrors found = errors();
@@ -84,9 +90,46 @@ TEST_F(ErrorsOf, PointsThatTheDisplayDoesNotSeeAreCountedApart) {
     EXPECT_LT(found.geometric.maxPx, 1e-3);
 }
 
-TEST_F(ErrorsOf, NumbersThatAreNoneAreCounted) {
-    texel(drawn_.color, 1, 1) = std::nanf("");
+TEST_F(ErrorsOf, PixelsWithANumberThatIsNoneAreCounted) {
+    texel(drawn_.color, 1, 1) = (&texel(drawn_.color, 1, 1))[2] = std::nanf("");
     EXPECT_EQ(errors().nanTexels, 1u);
+    texel(drawn_.color, 2, 1) = HUGE_VALF;
+    EXPECT_EQ(errors().nanTexels, 2u);
+}
+
+TEST_F(ErrorsOf, APositionThatIsNoneIsCountedWhereSomethingIsShown) {
+    for (const int x : {1, 2, 3})
+        for (int axis = 0; axis < 3; ++axis) (&texel(drawn_.position, x, 1))[axis] = std::nanf("");
+    texel(drawn_.coverage, 2, 1) = texel(drawn_.coverage, 3, 1) = 0;
+    EXPECT_EQ(errors().nanTexels, 1u);
+    (&texel(drawn_.position, 2, 1))[0] = 1;  // and two numbers that are none
+    EXPECT_EQ(errors().nanTexels, 2u);
+    (&texel(drawn_.position, 4, 1))[1] = HUGE_VALF;
+    EXPECT_EQ(errors().nanTexels, 3u);
+    (&texel(drawn_.position, 4, 1))[2] = texel(drawn_.color, 4, 1) = std::nanf("");
+    EXPECT_EQ(errors().nanTexels, 3u);
+}
+
+TEST_F(ErrorsOf, WhatBlendsHasNoPositionInTheTruthEither) {
+    for (int y = 0; y < kSizePx.y; ++y)
+        for (int x = 0; x < kSizePx.x; ++x)
+            for (int axis = 0; axis < 3; ++axis) {
+                if (x < 20) (&texel(truth_.position, x, y))[axis] = std::nanf("");
+                if (x < 21) (&texel(drawn_.position, x, y))[axis] = std::nanf("");
+            }
+    EXPECT_EQ(errors().nanTexels, 0u);
+    for (int axis = 0; axis < 3; ++axis) (&texel(drawn_.position, 21, 7))[axis] = std::nanf("");
+    EXPECT_EQ(errors().nanTexels, 1u);
+}
+
+TEST_F(ErrorsOf, CoverageLooksAcrossTheSeamOfAClosedDisplay) {
+    wall_ = test::smallShippedWall("full-cylinder", 40);
+    ASSERT_EQ(wall_.displays[0].sizePx, kSizePx);
+    for (int y = 0; y < kSizePx.y; ++y) {
+        texel(truth_.coverage, 0, y) = 0;
+        texel(drawn_.coverage, kSizePx.x - 1, y) = 0;
+    }
+    EXPECT_EQ(errors().coverage.total(), 0u);
 }
 
 class DrawnErrors : public test::GlTest {};

@@ -5,6 +5,7 @@
 #include "report/hard_cases/suite.h"
 #include "report/hard_cases/truth_check.h"
 #include "report/hard_cases/wrong_pixels.h"
+#include "report/kept_json.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/shipped_walls.h"
 #include "tests/support/temporary_folder.h"
@@ -13,8 +14,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -138,26 +143,95 @@ TEST(HardCasesDocument, SaysWhereMethodsBreak) {
 
 class RunSuite : public test::GlTest {};
 
-TEST_F(RunSuite, StopsWhenAskedTo) {
-    std::stop_source stop;
-    Renderer renderer;
-    const auto stopLater = [&](const SuiteProgress& progress) {
-        if (progress.finishedCases == 1) stop.request_stop();
-    };
-    HardCaseFamily family = hardCaseFamilies().back();
-    EXPECT_FALSE(runFamily(renderer, family, {16, {}, {"piecewise"}}, stopLater, stop.get_token()));
-}
-
 TEST_F(RunSuite, GivesTheSameResultsAgainAndWritesPictures) {
     const test::TemporaryFolder folder;
     HardCaseFamily family = hardCaseFamilies().back();
     const SuiteOptions options{16, folder.path("out"), {"piecewise", "image-based, cube"}};
     Renderer first, second;
-    const FamilyResult once = runFamily(first, family, options).value();
-    EXPECT_EQ(toJson(once), toJson(runFamily(second, family, options).value()));
+    const FamilyResult once = runFamily(first, family, options);
+    EXPECT_EQ(toJson(once), toJson(runFamily(second, family, options)));
     ASSERT_FALSE(once.pictures.empty());
     for (const CasePicture& picture : once.pictures)
         EXPECT_TRUE(std::ifstream(folder.path("out/" + picture.file)).good()) << picture.file;
+}
+
+// Two small families that count how often a case of theirs is made.
+class KeptFamilies : public test::GlTest {
+protected:
+    KeptFamilies() {
+        const HardCaseFamily easy = hardCaseFamilies().front();
+        for (const char* name : {"one", "other"}) {
+            HardCaseFamily family = easy;
+            family.name = name;
+            family.values.resize(2);
+            family.pictured = 0;
+            family.make = [this, easy](double value, int sizePx) {
+                ++made_;
+                return easy.make(value, sizePx);
+            };
+            families_.push_back(family);
+        }
+    }
+    // As text, and how many cases were made.
+    std::pair<std::string, int> run(const OnProgress& onProgress = [](const Progress&) {}) {
+        made_ = 0;
+        std::string text;
+        for (const FamilyResult& result : runFamilies(families_, options_, onProgress))
+            text += toJson(result).dump();
+        return {text, made_};
+    }
+    std::string fileOfOne() const { return folder_.path("hard-case-one.json"); }
+
+    test::TemporaryFolder folder_;
+    SuiteOptions options_{16, folder_.path(), {"piecewise"}};
+    std::vector<HardCaseFamily> families_;
+    int made_ = 0;
+};
+
+TEST_F(KeptFamilies, AreNotRunAgain) {
+    const auto [once, made] = run();
+    EXPECT_EQ(made, 4);
+    EXPECT_EQ(run(), std::pair(once, 0));
+}
+
+TEST_F(KeptFamilies, AreRunAgainWhereTheirFileOrPictureIsDamagedOrLost) {
+    const auto [once, made] = run();
+    std::filesystem::resize_file(fileOfOne(), 100);
+    EXPECT_EQ(run(), std::pair(once, 2));
+    std::filesystem::remove(fileOfOne());
+    EXPECT_EQ(run(), std::pair(once, 2));
+    std::filesystem::remove(folder_.path("hard-case-other-piecewise.png"));
+    EXPECT_EQ(run(), std::pair(once, 2));
+    EXPECT_EQ(run(), std::pair(once, 0));
+}
+
+TEST_F(KeptFamilies, OfAnotherMachineOrRunAreRunAgain) {
+    const auto [once, made] = run();
+    const nlohmann::json kept = keptJson(fileOfOne()).value();
+    for (const char* part : {"program", "processor", "gl_renderer", "gl_version"}) {
+        nlohmann::json other = kept;
+        ASSERT_TRUE(other["key"][part].is_string()) << part;
+        other["key"][part] = "another";
+        keepJson(fileOfOne(), other);
+        EXPECT_EQ(run(), std::pair(once, 2)) << part;
+    }
+    options_.sizePx = 20;
+    EXPECT_EQ(run().second, 4);
+}
+
+TEST_F(KeptFamilies, AreNoPartOfTheTimeThatIsLeft) {
+    std::vector<Progress> all;
+    const auto note = [&](const Progress& progress) { all.push_back(progress); };
+    run(note);
+    ASSERT_EQ(all.size(), 4u);
+    const double fourMs = all.front().leftMs;
+    std::filesystem::remove(folder_.path("hard-case-other.json"));
+    all.clear();
+    run(note);
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all.front().done, 2u);
+    EXPECT_EQ(all.front().all, 4u);
+    EXPECT_EQ(all.front().leftMs, fourMs / 2);  // a guess for each
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "renderer/scene/load_scene.h"
 #include "report/error_orders.h"
 #include "report/speed_report_json.h"
+#include "report/view_measurement.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/rendering.h"
 #include "tests/support/small_walls.h"
@@ -13,8 +14,10 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace curvewall {
 namespace {
@@ -34,7 +37,7 @@ MeasurementPlan planFor(const std::string& wall, const test::TemporaryFolder& fo
     return plan;
 }
 
-const auto kQuietly = [](const MeasurementProgress&) {};
+const auto kQuietly = [](const Progress&) {};
 
 // All that a repetition must give again to the last digit.
 std::map<std::string, nlohmann::json> errorsByName(const SpeedReport& report) {
@@ -71,7 +74,7 @@ TEST_F(Measurements, GoOnWhereTheyWereInterrupted) {
     const MeasurementPlan plan = planFor("full-cylinder", folder);
     const size_t settings = settingsFor(plan.views[0].request, Extent::quick).size();
     EXPECT_THROW(measureSpeed(plan,
-                              [&](const MeasurementProgress& progress) {
+                              [&](const Progress& progress) {
                                   if (progress.done == settings) throw Interruption("power cut");
                               }),
                  Interruption);
@@ -97,12 +100,45 @@ TEST_F(Measurements, CountTheirSteps) {
     const test::TemporaryFolder folder;
     const MeasurementPlan plan = planFor("planar-90", folder);
     size_t calls = 0, all = 0;
-    measureSpeed(plan, [&](const MeasurementProgress& progress) {
+    measureSpeed(plan, [&](const Progress& progress) {
         EXPECT_EQ(progress.done, calls++);
         EXPECT_GT(progress.leftMs, 0);
         all = progress.all;
     });
     EXPECT_EQ(calls, all);
+}
+
+TEST_F(Measurements, TellNoTimeForWhatIsKept) {
+    const test::TemporaryFolder folder;
+    MeasurementPlan plan = planFor("planar-90", folder);
+    const size_t settings = measureSpeed(plan, kQuietly).views[0].settings.size();
+    std::vector<double> leftMs;
+    const auto note = [&](const Progress& progress) { leftMs.push_back(progress.leftMs); };
+    measureSpeed(plan, note);
+    const double picturesMs = leftMs.back();
+    EXPECT_THAT(leftMs, ::testing::Each(picturesMs));
+
+    plan.rounds = 2;
+    leftMs.clear();
+    measureSpeed(plan, note);
+    const size_t secondRound = leftMs.size() - 1 - settings;
+    EXPECT_GT(leftMs.front(), picturesMs);
+    for (size_t i = 0; i <= secondRound; ++i) EXPECT_EQ(leftMs[i], leftMs.front());
+}
+
+TEST_F(Measurements, OfAnotherDriverAreNotShared) {
+    const test::TemporaryFolder folder;
+    const MeasurementPlan plan = planFor("planar-90", folder);
+    measureSpeed(plan, kQuietly);
+    const GlDriver same = glDriver();
+    const auto areKept = [&](const GlDriver& driver) {
+        for (const Step& step : ViewMeasurement(plan.views[0], plan, driver).steps())
+            if (step.kind == StepKind::errors && !step.isKept) return false;
+        return true;
+    };
+    EXPECT_TRUE(areKept(same));
+    EXPECT_FALSE(areKept({same.renderer, same.version + "1"}));
+    EXPECT_FALSE(areKept({same.renderer + "1", same.version}));
 }
 
 // Small triangles in flat colours: edges fall as geometry does, down to what chance decides.
@@ -112,6 +148,7 @@ TEST_P(FallingErrors, FollowTheKnobAtTheExpectedOrder) {
     const test::TemporaryFolder folder;
     const SpeedReport report = measureSpeed(planFor(GetParam(), folder), kQuietly);
     std::map<std::string, double> geometric;
+    std::set<std::string> edges;
     for (const ErrorOrder& order : errorOrders(report.views[0])) {
         SCOPED_TRACE(order.curve + ": " + order.error);
         if (order.error == "geometric, 99 in 100") {
@@ -119,12 +156,16 @@ TEST_P(FallingErrors, FollowTheKnobAtTheExpectedOrder) {
             EXPECT_NEAR(order.order / order.expected, 1, 0.3);
         }
         if (order.error == "wrong edges") {
+            edges.insert(order.curve);
             EXPECT_GT(order.order / order.expected, 0.4);  // kinks of measured maps
         }
     }
     EXPECT_THAT(geometric, ::testing::Contains(::testing::Key("piecewise")));
     EXPECT_THAT(geometric, ::testing::Contains(::testing::Key("image-based, cube, nearest")));
     EXPECT_THAT(geometric, ::testing::Contains(::testing::Key("vertex-warp")));
+    EXPECT_THAT(edges, ::testing::Contains("piecewise"));
+    EXPECT_THAT(edges, ::testing::Contains("image-based, cube, nearest"));
+    EXPECT_THAT(edges, ::testing::Contains("vertex-warp"));
     for (const SettingResult& result : report.views[0].settings) {
         if (!result.refusal.empty()) continue;
         SCOPED_TRACE(result.setting.text());

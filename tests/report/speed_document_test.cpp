@@ -2,6 +2,7 @@
 
 #include "report/advice.h"
 #include "report/recommendation.h"
+#include "report/speed_plots.h"
 #include "tests/report/made_up_report.h"
 #include "tests/support/temporary_folder.h"
 
@@ -181,6 +182,59 @@ TEST(SpeedDocument, PlotsShowEachMethodAndNotTooManyCurves) {
              {"piecewise", "vertex-warp", "bounded-raycast, triangle", "image-based, cube, linear"})
             EXPECT_EQ(std::ranges::count(figure->plot.curves, name, &Curve::name), 1) << name;
     }
+}
+
+std::string captionOf(const ViewReport& view, const std::string& fileEnd) {
+    for (const Block& block : speedPlots(view, 0.25, "plot"))
+        if (const auto* figure = std::get_if<PlotFigure>(&block);
+            figure && figure->picture.file.ends_with(fileEnd))
+            return figure->picture.caption;
+    return "no such plot";
+}
+
+TEST(SpeedPlots, NameSettingsWithoutErrorThatALogarithmicAxisHasNoPlaceFor) {
+    ViewReport view = test::madeUpReport().views[0];
+    EXPECT_THAT(captionOf(view, "wrong-pixels.png"), Not(HasSubstr("Not shown")));
+    view.settings[0].errors.image.shareOff = 0;
+    view.settings[2].errors.image.shareOff = 0;
+    EXPECT_THAT(captionOf(view, "wrong-pixels.png"),
+                HasSubstr("Not shown, with an error of 0: `piecewise` at 2 px; `piecewise` at 0.5 px."));
+    for (size_t i = 0; i < 6; ++i) view.settings[i].errors.image.shareOff = 0;
+    EXPECT_THAT(captionOf(view, "wrong-pixels.png"), HasSubstr("`piecewise` at 0.25 px; and 2 more."));
+    EXPECT_THAT(captionOf(view, "geometric.png"), Not(HasSubstr("Not shown")));
+}
+
+TEST(SpeedPlots, NameAFloorThatALogarithmicAxisHasNoPlaceFor) {
+    ViewReport view = test::madeUpReport().views[0];
+    for (SettingResult& result : view.settings) result.edges = ImageDifference{0.01, 40, 1, 10};
+    EXPECT_THAT(captionOf(view, "wrong-edges.png"),
+                HasSubstr("No line shows the floor of sampling, which is 0."));
+    view.floors[0].edgesOff = 0.001;
+    EXPECT_THAT(captionOf(view, "wrong-edges.png"), Not(HasSubstr("No line")));
+}
+
+TEST(SpeedPlots, SayWhereNothingHasAWrongEdge) {
+    ViewReport view = test::madeUpReport().views[0];
+    const auto notes = [&view] {
+        std::string text;
+        for (const Block& block : speedPlots(view, 0.25, "plot"))
+            if (const auto* paragraph = std::get_if<Paragraph>(&block)) text += paragraph->text;
+        return text;
+    };
+    EXPECT_EQ(notes(), "");  // nothing is known in flat colours
+    for (SettingResult& result : view.settings) result.edges = ImageDifference{0, 99, 1, 0};
+    EXPECT_THAT(notes(), HasSubstr("No setting has a wrong edge"));
+    EXPECT_EQ(captionOf(view, "wrong-edges.png"), "no such plot");
+    view.settings[3].edges->shareOff = 0.01;
+    EXPECT_EQ(notes(), "");
+    EXPECT_THAT(captionOf(view, "wrong-edges.png"), HasSubstr("and 15 more"));
+}
+
+TEST(SpeedPlots, LeaveOutWhatHasNoSuchNumber) {
+    ViewReport view = test::madeUpReport().views[0];
+    for (SettingResult& result : view.settings)
+        if (result.setting.method == "piecewise") result.edges = ImageDifference{0.01, 40, 1, 10};
+    EXPECT_THAT(captionOf(view, "wrong-edges.png"), Not(HasSubstr("Not shown")));
 }
 
 TEST(SpeedDocument, IsAPage) {

@@ -87,7 +87,10 @@ TEST(Truth, IsReadAgainBitByBit) {
     const RenderRequest request = roomOnADome();
     const std::string key = keyOfView(request);
     const Supersampling supersampling{4, 1, 200};
+    EXPECT_FALSE(isTruthKept(key, supersampling, folder.path()));
     const KnownTruth traced = keptTruth(request, key, supersampling, folder.path());
+    EXPECT_TRUE(isTruthKept(key, supersampling, folder.path()));
+    EXPECT_FALSE(isTruthKept(key, {8, 1, 200}, folder.path()));
     const auto written =
         std::filesystem::last_write_time(std::filesystem::directory_iterator(folder.path())->path());
     const KnownTruth read = keptTruth(request, key, supersampling, folder.path());
