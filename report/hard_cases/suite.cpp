@@ -68,7 +68,8 @@ StatedBounds boundsOf(const HardCaseMethod& method, const MethodErrors& truth) {
 std::string faultOf(const CaseResult& result, const StatedBounds& bounds, glm::ivec2 sizePx) {
     const MethodErrors& errors = result.errors;
     const auto mostWrong = static_cast<uint64_t>(mostWrongPixels(sizePx));
-    if (errors.nanTexels > 0) return fmt::format("{} numbers of its colours are none", errors.nanTexels);
+    if (errors.nanTexels > 0)
+        return fmt::format("{} pixels have colours or positions that are no numbers", errors.nanTexels);
     if (errors.misplacedPixels > mostWrong)
         return fmt::format("{} pixels show what the display has no place for", errors.misplacedPixels);
     if (result.openPixels() > 0) return fmt::format("{} pixels have gaps", result.openPixels());
