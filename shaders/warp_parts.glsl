@@ -165,11 +165,21 @@ float shownBesidePx(vec4 jump, vec3 at, vec2 px) {
     return abs(distance(px, middle) - distance(end, middle));
 }
 
-// How wide a gap is where a part is left out that cannot be divided.
-float gapPx(Part p, ScreenBox box, bool turns) {
-    if (!turns) return turnsOf(box).y > 0 ? length(box.most - box.least) : 0.0;
-    vec4 jump = dot(torn[0].xyz, p.a + p.b + p.c) > 0.0 ? torn[0] : torn[1];
-    return max(max(shownBesidePx(jump, p.a, p.pxA), shownBesidePx(jump, p.b, p.pxB)), shownBesidePx(jump, p.c, p.pxC));
+// How wide a gap is at an edge that turns far and cannot be divided.
+float gapAtEdgePx(vec3 a, vec3 b, vec2 pxA, vec2 pxB) {
+    float gap = 0.0;
+    for (int i = 0; i < 2; ++i)
+        if (turnsFarAround(torn[i], a, b))
+            gap = max(gap, max(shownBesidePx(torn[i], a, pxA), shownBesidePx(torn[i], b, pxB)));
+    return gap;
+}
+
+// How wide a gap is where a part is left out that cannot be divided. Where it is only a line, it may seem to go around a pole.
+float gapPx(Part p, ScreenBox box, bool isWide) {
+    float gap = max(max(gapAtEdgePx(p.a, p.b, p.pxA, p.pxB), gapAtEdgePx(p.b, p.c, p.pxB, p.pxC)),
+                    gapAtEdgePx(p.c, p.a, p.pxC, p.pxA));
+    bool isBeside = box.isTorn || turnsOf(box).y == 0;
+    return isWide && !isBeside ? max(gap, length(box.most - box.least)) : gap;
 }
 
 // Takes the parts of the triangle, `most` of them, and counts them. `begin` and `end` are those of a piece tree.
@@ -224,10 +234,10 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         if (largest == 0.0 || openCount + 2 > MOST_OPEN) {
             taken.corners = part;
             // What still turns far is too small to be divided, and would be seen far from where it is.
-            bool isTurning = box.isTorn || turnsFar(p.a, p.b) || turnsFar(p.b, p.c) || turnsFar(p.c, p.a);
-            if (!isWide && !isTurning) {
+            bool isDrawn = !isWide && !box.isTorn && !turnsFar(p.a, p.b) && !turnsFar(p.b, p.c) && !turnsFar(p.c, p.a);
+            if (isDrawn) {
                 turns = turnsOf(box);
-            } else if (gapPx(p, box, isTurning) > MOST_GAP_PX && isOffPlane(t)) {
+            } else if (gapPx(p, box, isWide) > MOST_GAP_PX && isOffPlane(t)) {
                 refusal = TOO_COARSE_PARTS;
             }
             continue;

@@ -364,7 +364,7 @@ TEST_F(VertexWarp, AStripFromBesideTheEyeMayGoFarAway) {
         const glm::dvec3 pointM = ray * (kBelowM / -ray.y);
         return ray.y < 0 && pointM.x > kLeftM && pointM.x < kRightM && pointM.z > -kAheadM;
     };
-    for (const float behindM : {1e5f, 1e7f}) {
+    for (const float behindM : {1e5f, 1e7f, 1e10f}) {
         Scene strip;
         startMaterial(strip, plainMaterial(glm::vec3(1)));
         addQuad(strip, {glm::vec3(kLeftM, -kBelowM, behindM), glm::vec3(kRightM, -kBelowM, behindM),
