@@ -144,8 +144,7 @@ std::vector<Block> adviceOf(const SpeedReport& report) {
     blocks.emplace_back(Heading{2, "Which method to use"});
     blocks.emplace_back(
         Paragraph{fmt::format("Asked for: a picture in which nothing is shown more than {} away from where "
-                              "it belongs. Of all that keep "
-                              "this, the fastest.",
+                              "it belongs. Of all that keep this, the fastest.",
                               pixelsText(report.tolerancePx))});
     if (report.views.size() > 1) blocks.emplace_back(summaryTable(report));
     for (const ViewReport& view : report.views) addAnswer(blocks, view, report.tolerancePx);

@@ -28,10 +28,8 @@ std::string truthText(const SpeedReport& report) {
     }
     return fmt::format(
         "Supersampled PSNR: likeness to a picture of {} exact rays a pixel or more, whose own noise leaves "
-        "it "
-        "at {} dB or better. Beyond that, differences say nothing. It rewards blur, so that it decides "
-        "nothing "
-        "here.",
+        "it at {} dB or better. Beyond that, differences say nothing. It rewards blur, so that it decides "
+        "nothing here.",
         fewest, decibelText(noisiest));
 }
 
@@ -43,23 +41,22 @@ void addExplanation(std::vector<Block>& blocks, const SpeedReport& report) {
         "counts. Beside it stands what 99 pixels in 100 keep. It is measured on what was drawn: the "
         "rasterizer puts corners on a grid of 1/256 px, which may add 0.003 px and is allowed for.");
     say("Image error: the share of wrong pixels. They have a channel off by more than 8 of 255 from the "
-        "truth, one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. "
-        "Of several samples a pixel the supersampled picture is the truth.");
-    say("Wrong edges: the same with every surface in one flat colour. Nothing can be wrong there but "
-        "where things are; textures and their filters are left out.");
+        "truth, one exact ray through the centre of each pixel. PSNR and SSIM compare the same pictures. Of "
+        "several samples a pixel the supersampled picture is the truth.");
+    say("Wrong edges: the same with every surface in one flat colour. Nothing can be wrong there but where "
+        "things are; textures and their filters are left out.");
     say("Coverage error: pixels that show nothing where the truth has something all around, or something "
         "where it has nothing; and in a closed room around the eye, pixels that show nothing, or the room "
-        "twice. With pixels that show what is not on the display, and those without a number, these are "
-        "the faulty pixels.");
+        "twice. With pixels that show what is not on the display, and those without a number, these are the "
+        "faulty pixels.");
     say("Floor of sampling: what stays wrong where the projection is exact, since drawn triangles filter "
         "textures in another way than traced rays. It is estimated in a few small flat windows, so that a "
-        "method "
-        "may come somewhat below.");
+        "method may come somewhat below.");
     say(truthText(report));
-    say("Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. "
-        "Reading back and writing files are not in it.");
-    say("Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; "
-        "the reference, which the others are judged by, takes no part.");
+    say("Time: of one frame, warm: the median of several rounds, and the fastest and slowest round. Reading "
+        "back and writing files are not in it.");
+    say("Grey steps in a plot: the Pareto front. Nothing beats what lies on it in both time and error; the "
+        "reference, which the others are judged by, takes no part.");
     blocks.emplace_back(std::move(words));
     blocks.emplace_back(
         Paragraph{fmt::format("Measured with `{}` on {}. Errors are the same wherever this driver runs; "

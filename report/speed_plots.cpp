@@ -154,27 +154,25 @@ PlotFigure figureOf(const ViewReport& view, const ErrorPlot& error, const std::s
 }
 
 ErrorPlot geometricPlot(double tolerancePx) {
-    ErrorPlot error{
-        {},
-        shownGeometricPx,
-        "px",
-        "geometric",
-        "Time against the largest geometric error. Less than 0.001 px is drawn as 0.001 px. Lower "
-        "left is better."};
+    ErrorPlot error{{},
+                    shownGeometricPx,
+                    "px",
+                    "geometric",
+                    "Time against the largest geometric error. Less than 0.001 px is drawn as 0.001 px. "
+                    "Lower left is better."};
     error.plot.yLabel = "largest geometric error, px";
     error.plot.levels = {{fmt::format("asked for: {} px", measureText(tolerancePx)), tolerancePx}};
     return error;
 }
 
 ErrorPlot edgesPlot(const ViewReport& view) {
-    ErrorPlot error{
-        {},
-        wrongEdgesPercent,
-        "% wrong",
-        "wrong-edges",
-        "Time against the share of wrong edges: what is shown at the wrong place, whatever filters "
-        "textures. Lower left is better.",
-        "No setting has a wrong edge, so that there is no plot of them."};
+    ErrorPlot error{{},
+                    wrongEdgesPercent,
+                    "% wrong",
+                    "wrong-edges",
+                    "Time against the share of wrong edges: what is shown at the wrong place, whatever "
+                    "filters textures. Lower left is better.",
+                    "No setting has a wrong edge, so that there is no plot of them."};
     error.plot.yLabel = "wrong edges, %";
     error.plot.levels = floorLevels(view, [](const SamplingFloor& floor) { return 100 * floor.edgesOff; });
     return error;
@@ -193,13 +191,13 @@ ErrorPlot pixelsPlot(const ViewReport& view) {
 }
 
 ErrorPlot likenessPlot(const ViewReport& view) {
-    ErrorPlot error{{},
-                    supersampledDb,
-                    "dB",
-                    "supersampled",
-                    "Time against likeness to the supersampled truth. Upper left is better; blur counts as "
-                    "likeness.",
-                    "Every setting equals the supersampled truth, so that there is no plot of likeness."};
+    ErrorPlot error{
+        {},
+        supersampledDb,
+        "dB",
+        "supersampled",
+        "Time against likeness to the supersampled truth. Upper left is better; blur counts as likeness.",
+        "Every setting equals the supersampled truth, so that there is no plot of likeness."};
     error.plot.yLabel = fmt::format("PSNR against {} rays a pixel, dB", view.truth.supersamples);
     error.plot.logarithmicY = false;
     error.plot.moreIsBetterY = true;

@@ -82,8 +82,7 @@ std::vector<HardCaseFamily> directionFamilies() {
     return {
         {"axis crossing",
          "Triangles overhead hold the axis of a full cylinder, about which their azimuths run full circle; "
-         "an edge "
-         "comes closer and closer to it. Every ceiling of every hall does this.",
+         "an edge comes closer and closer to it. Every ceiling of every hall does this.",
          "distance of the edge from the axis, m",
          {1, 0.1, 1e-2, 1e-4, 1e-7, 0},
          0,
@@ -101,8 +100,7 @@ std::vector<HardCaseFamily> directionFamilies() {
          }},
         {"seam",
          "Surfaces across the two borders of a full turn, which show the same direction, and an edge that "
-         "comes to "
-         "lie along them.",
+         "comes to lie along them.",
          "angle between the edge and the seam, deg",
          {30, 1, 1e-2, 1e-4, 1e-6, 0},
          1,
@@ -111,8 +109,7 @@ std::vector<HardCaseFamily> directionFamilies() {
          }},
         {"behind the eye",
          "Stripes of a floor that begin ahead and end behind the eye, farther and farther away: what looks "
-         "through "
-         "one perspective picture has to clip them.",
+         "through one perspective picture has to clip them.",
          "distance of the ends behind the eye, m",
          {0.1, 1, 10, 1e3, 1e5, 1e7},
          2,
@@ -121,8 +118,7 @@ std::vector<HardCaseFamily> directionFamilies() {
          }},
         {"around the eye",
          "One triangle that surrounds the eye, in a plane closer and closer below it, down to the distance "
-         "at which "
-         "all methods cut (1e-5 of that to the wall, here 2e-5 m).",
+         "at which all methods cut (1e-5 of that to the wall, here 2e-5 m).",
          "distance of the plane from the eye, m",
          {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5},
          1,
@@ -131,8 +127,7 @@ std::vector<HardCaseFamily> directionFamilies() {
          }},
         {"long edges",
          "A strip of ground whose edges are seen under more and more of half a turn: roads and horizons. The "
-         "picture "
-         "of such an edge is far from straight.",
+         "picture of such an edge is far from straight.",
          "angle that an edge is seen under, deg",
          {60, 120, 170, 179, 179.9, 179.9999},
          2,

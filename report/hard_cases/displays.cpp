@@ -92,8 +92,7 @@ std::vector<HardCaseFamily> displayFamilies() {
          }},
         {"folds of a measured map",
          "A camera texture that is squeezed across its middle until it folds over, as where a projector's "
-         "picture "
-         "bends around a corner: below 0 directions are shown three times.",
+         "picture bends around a corner: below 0 directions are shown three times.",
          "source pixels per display pixel in the middle",
          {1, 0.5, 0.1, 1e-2, 1e-4, 0, -1e-2, -1},
          7,
@@ -107,16 +106,14 @@ std::vector<HardCaseFamily> displayFamilies() {
          [](double value, int sizePx) { return inRoom(noisyScreen(value / 2, sizePx)); }},
         {"holes",
          "Nodes of a measured map are missing, singly and everywhere: where nothing was measured nothing is "
-         "shown, "
-         "and what is left stays right.",
+         "shown, and what is left stays right.",
          "share of nodes that are missing",
          {0, 1e-3, 1e-2, 0.1, 0.5, 0.9, 1},
          3,
          [](double value, int sizePx) { return inRoom(screenWithHoles(value, sizePx)); }},
         {"huge displays",
          "A full cylinder, wider and wider, up to what OpenGL can hold and beyond; its height is a share of "
-         "the "
-         "size that the suite runs at.",
+         "the size that the suite runs at.",
          "width, px",
          {1024, 4096, 16384, 16385},
          0,

@@ -27,12 +27,10 @@ std::vector<HardCaseFamily> fieldOfViewFamilies() {
     return {
         ofLens("equidistant", {90, 179.9, 180, 180.1, 270, 359.9, 360, 360.1}, 4,
                "The usual fisheye around half a turn, where a plane ahead no longer holds what it sees, and "
-               "around "
-               "a whole one, where its rim is a single direction."),
+               "around a whole one, where its rim is a single direction."),
         ofLens("stereographic", {90, 179.9, 180, 180.1, 300, 350, 359.9, 360}, 4,
                "Near a whole turn its middle shrinks to nothing, while most of the picture is what lies "
-               "straight "
-               "behind; at a whole turn it is infinitely large."),
+               "straight behind; at a whole turn it is infinitely large."),
         ofLens(
             "orthographic", {90, 179.9, 180, 180.1}, 2,
             "Its pixels at the rim of half a turn see infinitely steep angles, and beyond there is nothing."),
@@ -47,8 +45,7 @@ std::vector<HardCaseFamily> fieldOfViewFamilies() {
          }},
         {"more than a turn",
          "A cylinder whose picture goes around more than once and shows some directions twice, as "
-         "overlapping "
-         "panoramas do.",
+         "overlapping panoramas do.",
          "arc, deg",
          {300, 359.9, 360, 360.1, 540, 720},
          4,

@@ -203,8 +203,8 @@ std::string truthText(const Told& told) {
         wrong += truth.check.wrongPixels;
     }
     return fmt::format(
-        "The truth: of {} pixels of the reference that were computed again in double precision, {} "
-        "are wrong, and {} so near to an edge that none can tell.",
+        "The truth: of {} pixels of the reference that were computed again in double precision, {} are "
+        "wrong, and {} so near to an edge that none can tell.",
         checked, wrong, doubtful);
 }
 
@@ -254,35 +254,27 @@ Document hardCasesDocument(const std::vector<FamilyResult>& results) {
     const int sizePx = results.empty() ? 0 : results.front().sizePx;
     blocks.emplace_back(
         Paragraph{fmt::format("Geometry and displays that break renderers, in {} families, each from easy to "
-                              "impossible, drawn by every "
-                              "method and compared with the reference. Displays are {} px wide where the "
-                              "family does not say otherwise.",
+                              "impossible, drawn by every method and compared with the reference. Displays "
+                              "are {} px wide where the family does not say otherwise.",
                               all.size(), sizePx)});
     blocks.emplace_back(summaryTable(all));
     blocks.emplace_back(Heading{2, "What counts as broken"});
     blocks.emplace_back(Paragraph{
         "Where what a pixel shows belongs on the display, against the pixel's centre, may be off by"});
     blocks.emplace_back(List{boundTexts()});
-    blocks.emplace_back(
-        Paragraph{"and by what the reference itself is off, whose points too are told in single precision. A "
-                  "picture is "
-                  "broken as well where colours are not numbers; where a pixel shows fewer surfaces than the "
-                  "truth has there "
-                  "and at all eight pixels around it (a gap); and where more pixels than a quarter of the "
-                  "display's width and "
-                  "height have a colour that the truth has nowhere within a pixel (wrong), show more "
-                  "surfaces than the truth "
-                  "has there (too many), or show what the display has no place for. That many are left to "
-                  "chance, for what is "
-                  "thinner than a pixel is met by a sample or not. Tables have the largest error, that of 99 "
-                  "pixels in 100 in "
-                  "brackets, and such pixels where there are any."});
+    blocks.emplace_back(Paragraph{
+        "and by what the reference itself is off, whose points too are told in single precision. A picture "
+        "is broken as well where colours or positions are not numbers; where a pixel shows fewer surfaces "
+        "than the truth "
+        "has there and at all eight pixels around it (a gap); and where more pixels than a quarter of the "
+        "display's width and height have a colour that the truth has nowhere within a pixel (wrong), show "
+        "more surfaces than the truth has there (too many), or show what the display has no place for. That "
+        "many are left to chance, for what is thinner than a pixel is met by a sample or not. Tables have "
+        "the largest error, that of 99 pixels in 100 in brackets, and such pixels where there are any."});
     blocks.emplace_back(
         Paragraph{"The truth is ray traced through the exact projection, with the rays of Embree in single "
-                  "precision. So it "
-                  "is checked itself: every triangle is met once more with the rays of pixels in double "
-                  "precision, of all "
-                  "pixels or, in large scenes, of evenly spread ones."});
+                  "precision. So it is checked itself: every triangle is met once more with the rays of "
+                  "pixels in double precision, of all pixels or, in large scenes, of evenly spread ones."});
     if (!knownLimits().empty()) {
         blocks.emplace_back(Heading{2, "Known limits"});
         blocks.emplace_back(limitTable());

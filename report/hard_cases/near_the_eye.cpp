@@ -58,8 +58,7 @@ std::vector<HardCaseFamily> nearTheEyeFamilies() {
     return {
         {"near plane",
          "A square comes up to the eye and goes through the distance at which all methods cut: 1e-5 of that "
-         "to the "
-         "wall, which is 1e-5 m for a lens. A tracked visitor leans over a rail.",
+         "to the wall, which is 1e-5 m for a lens. A tracked visitor leans over a rail.",
          "distance of the square, m",
          {1, 0.1, 1e-2, 1e-3, 1e-4, 3e-5, 1e-5, 1e-6},
          2,
@@ -84,8 +83,7 @@ std::vector<HardCaseFamily> nearTheEyeFamilies() {
          }},
         {"surfaces edge on",
          "A floor ahead of the eye sinks to a line: its slabs keep their lengths and lose their heights. "
-         "Every "
-         "table top at eye height is one.",
+         "Every table top at eye height is one.",
          "distance of the floor's plane from the eye, m",
          {1, 0.1, 1e-2, 1e-3, 1e-5, 1e-7, 0},
          1,

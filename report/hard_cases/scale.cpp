@@ -40,8 +40,7 @@ std::vector<HardCaseFamily> scaleFamilies() {
     return {
         {"far from the origin",
          "A room with things in it, moved away by its root node together with the eye. Surveyed sites come "
-         "in "
-         "coordinates of a country or of the earth. Single precision has lost a metre at 1e7 m.",
+         "in coordinates of a country or of the earth. Single precision has lost a metre at 1e7 m.",
          "distance of the root node from the origin, m",
          {0, 1e3, 1e5, 1e7, 1e9, 1e12},
          3,
@@ -56,24 +55,21 @@ std::vector<HardCaseFamily> scaleFamilies() {
          }},
         {"huge scenes",
          "The same room and eye, enlarged: from a room to the solar system, and on to where squares of "
-         "lengths leave "
-         "single precision.",
+         "lengths leave single precision.",
          "scale",
          {1, 1e2, 1e4, 1e7, 1e9, 1e11, 1e13, 1e30},
          3,
          atScale},
         {"tiny scenes",
          "The same room and eye, made smaller, until all of it is nearer than what every method cuts (1e-5 m "
-         "for a "
-         "lens).",
+         "for a lens).",
          "scale",
          {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6},
          3,
          atScale},
         {"fine details far along an axis",
          "Squares of 0.1 mm, 5 mm ahead of the eye, whose vertices themselves are far along an axis: their "
-         "single "
-         "precision moves them, and what is drawn should be what is left of them.",
+         "single precision moves them, and what is drawn should be what is left of them.",
          "distance along the axis, m",
          {0, 1, 10, 100, 1e3},
          2,

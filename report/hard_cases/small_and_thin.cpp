@@ -89,8 +89,7 @@ std::vector<HardCaseFamily> smallAndThinFamilies() {
     return {
         {"slivers",
          "A wall in whose middle are up to 64 slivers, thinner and thinner, of its own colour: wherever two "
-         "of them "
-         "do not meet, the room behind shines through. Cutters and CAD exports make such triangles.",
+         "of them do not meet, the room behind shines through. Cutters and CAD exports make such triangles.",
          "aspect, length over width",
          {10, 100, 1e3, 1e4, 1e5, 1e6},
          1,
@@ -99,8 +98,7 @@ std::vector<HardCaseFamily> smallAndThinFamilies() {
          }},
         {"sub-pixel triangles",
          "A patch of up to 20,000 triangles that shrink far below a pixel; gaps would show the room behind. "
-         "Scanned "
-         "and sculpted models look like this from any distance.",
+         "Scanned and sculpted models look like this from any distance.",
          "side of a triangle, px",
          {8, 2, 1, 0.5, 0.2, 0.1, 0.05},
          2,
@@ -109,8 +107,7 @@ std::vector<HardCaseFamily> smallAndThinFamilies() {
          }},
         {"fan",
          "A disc of thin triangles that all meet in one corner ahead: in the middle hundreds of them share a "
-         "pixel. "
-         "Modellers cap cylinders like this.",
+         "pixel. Modellers cap cylinders like this.",
          "triangles",
          {10, 100, 1e3, 1e4},
          1,
@@ -127,8 +124,8 @@ std::vector<HardCaseFamily> smallAndThinFamilies() {
          }},
         {"coplanar overlaps",
          "A poster closer and closer before a wall, until both are in one plane, where no order is right and "
-         "which "
-         "of the two is seen is for each method to say. Decals and road markings are modelled like this.",
+         "which of the two is seen is for each method to say. Decals and road markings are modelled like "
+         "this.",
          "gap, in distances from the eye",
          {0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0},
          3,
