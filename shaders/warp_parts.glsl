@@ -166,12 +166,12 @@ float shownBesidePx(vec4 jump, vec3 at, vec2 px) {
 }
 
 // How wide a gap is at an edge that turns far and cannot be divided.
+float gapBesidePx(vec4 jump, vec3 a, vec3 b, vec2 pxA, vec2 pxB) {
+    return turnsFarAround(jump, a, b) ? max(shownBesidePx(jump, a, pxA), shownBesidePx(jump, b, pxB)) : 0.0;
+}
+
 float gapAtEdgePx(vec3 a, vec3 b, vec2 pxA, vec2 pxB) {
-    float gap = 0.0;
-    for (int i = 0; i < 2; ++i)
-        if (turnsFarAround(torn[i], a, b))
-            gap = max(gap, max(shownBesidePx(torn[i], a, pxA), shownBesidePx(torn[i], b, pxB)));
-    return gap;
+    return max(gapBesidePx(torn[0], a, b, pxA, pxB), gapBesidePx(torn[1], a, b, pxA, pxB));
 }
 
 // How wide a gap is where a part is left out that cannot be divided. Where it is only a line, it may seem to go around a pole.
