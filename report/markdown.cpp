@@ -100,7 +100,9 @@ struct MarkdownWriter {
         }
         return lines;
     }
-    std::string operator()(const PlotFigure& figure) const { return pictureText(figure.picture) + "\n"; }
+    std::string operator()(const PlotFigure& figure) const {
+        return pictureText(figure.picture) + "\n\n" + lineText(figure.picture.caption) + "\n";
+    }
 
     static constexpr size_t kPicturesInARow = 4;
 };

@@ -70,13 +70,13 @@ const std::vector<KnownLimit>& knownLimits() {
          "display of 512 x 384.",
          false},
         {"folds of a measured map", "vertex-warp", 0.1, 1.5, 0.95, 0.00011,
-         "Points are off by up to 2 px where the map is squeezed; squeezed more it is refused.", false},
+         "Where the map is squeezed straight parts do not follow it; squeezed more it is refused.", false},
         {"folds of a measured map", "image-based", 1e-2, 330, 44, 0.00019,
          "Where the map is squeezed, the display magnifies its source without end, and faces are as dense as "
          "all but the densest hundredth of the display."},
         {"noise in a measured map", "piecewise", 2, 12, 2.3, 0.00027,
          "The certificate tells where rays land. Where a noisy map nearly folds, where the ray that is shown "
-         "comes from is off by several times that, up to 7 px."},
+         "comes from is off by several times that."},
         {"noise in a measured map", "vertex-warp", 2, 2.7, 1.1, 0.00053,
          "The picture nearly folds within a part."},
         {"noise in a measured map", "image-based", 8, 14, 4.6, 0.00018, "As where a map folds."},

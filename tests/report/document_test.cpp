@@ -141,7 +141,7 @@ TEST_F(Documents, MarkdownIsPlain) {
     EXPECT_TRUE(text.starts_with("# Speed \\& \\<error\\> of `piecewise`\n\n## First part\n\n")) << text;
     EXPECT_THAT(text, HasSubstr("\n`a|b` is \\<quick\\> \\& \\*clean\\*, ticks \\` alone\n"));
     EXPECT_THAT(text, HasSubstr("\n- one\n- two `code`\n"));
-    EXPECT_THAT(text, HasSubstr("![Time](plots/time.png)"));
+    EXPECT_THAT(text, HasSubstr("![Time](plots/time.png)\n\nTime\n"));
     EXPECT_THAT(text, HasSubstr("![a \"dome\"](a%20b.png)"));
 }
 
