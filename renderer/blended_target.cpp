@@ -42,9 +42,9 @@ TargetFormat BlendedTarget::pictureFormat() const {
     return target_ ? TargetFormat{OutputKind::color, true} : format_;
 }
 
-size_t BlendedTarget::memoryBytes() const {
-    return target_ ? target_->memoryBytes() + sizeOf(maps_->alpha) + sizeOf(maps_->beta) : 0;
-}
+size_t BlendedTarget::memoryBytes() const { return target_ ? target_->memoryBytes() : 0; }
+
+size_t BlendedTarget::mapBytes() const { return maps_ ? sizeOf(maps_->alpha) + sizeOf(maps_->beta) : 0; }
 
 void BlendedTarget::record(const FrameTarget& picture) const {
     if (!target_) return;

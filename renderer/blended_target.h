@@ -33,8 +33,8 @@ public:
     // Waits for the GPU. Never within a frame.
     Frame read(const FrameTarget& picture) const { return target_ ? target_->read() : picture.read(); }
 
-    // Of its own, with the maps; not of the picture.
-    size_t memoryBytes() const;
+    size_t memoryBytes() const;  // of its own picture
+    size_t mapBytes() const;
 
 private:
     TargetFormat format_;

@@ -45,7 +45,7 @@ const char* refusalOfParts(uint32_t refusal) {
                "longer one has fewer";
     return "single precision has no parts as fine as a triangle needs, and more than a pixel would stay "
            "open: it goes too far to all sides for how near the eye is, or the display magnifies some "
-           "directions too much; reference draws it";
+           "directions too much; reference may draw it";
 }
 
 constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT;
@@ -259,8 +259,9 @@ FrameOutcome Coverage::finishFrame() {
         outcome.pairCount += totals.pairs;
         outcome.meshletCount += totals.meshlets;
     }
-    if (refusal != 0) throw UsageError(refusalOfParts(refusal));
-    if (const auto room = roomFor(parts_, needed, capacity_, mostPairs_)) {
+    if (refusal != 0) {
+        outcome.refusal = refusalOfParts(refusal);
+    } else if (const auto room = roomFor(parts_, needed, capacity_, mostPairs_)) {
         outcome.overflowed = true;
         capacity_ = *room;
         allocate();

@@ -30,6 +30,7 @@ size_t memoryBytesOf(const GpuSource& source) {
     size_t bytes = sizeOf(source.lookup.places) + sizeOf(source.lookup.gradients) +
                    sizeOf(source.lookup.cells) + memoryBytesOf(source.layers);
     for (const GpuPieces& face : source.faces) bytes += memoryBytesOf(face);
+    for (const StrokePieces& face : source.facesForStrokes) bytes += memoryBytesOf(face);
     return bytes;
 }
 

@@ -11,6 +11,7 @@ FrameOutcome& FrameOutcome::operator+=(const FrameOutcome& other) {
     pairCount += other.pairCount;
     meshletCount += other.meshletCount;
     overflowed = overflowed || other.overflowed;
+    if (!refusal) refusal = other.refusal;
     return *this;
 }
 

@@ -30,6 +30,7 @@ struct FrameOutcome {
     uint64_t pairCount = 0;
     uint64_t meshletCount = 0;  // that showed something, where the engine looks at them
     bool overflowed = false;
+    const char* refusal = nullptr;  // why the frame must not be shown, whatever room there is
 
     FrameOutcome& operator+=(const FrameOutcome& other);
 };

@@ -75,7 +75,7 @@ std::vector<float> shownErrorsPx(const Frame& position, const Display& display) 
         for (int y = begin; y < end; ++y)
             for (int x = 0; x < position.sizePx.x; ++x) {
                 const float* const texel = position.at(x, y);
-                if (std::isnan(texel[0])) continue;
+                if (!std::isfinite(texel[0] + texel[1] + texel[2])) continue;
                 constexpr double kNowhere = std::numeric_limits<double>::infinity();
                 errors[static_cast<size_t>(y) * static_cast<size_t>(position.sizePx.x) +
                        static_cast<size_t>(x)] =

@@ -107,6 +107,10 @@ StrokePieces uploadStrokePieces(const PieceMesh& mesh) {
     return {uploadPieces(mesh, kBorderPx), makeBuffer(std::span<const glm::vec4>(records))};
 }
 
+size_t memoryBytesOf(const StrokePieces& pieces) {
+    return memoryBytesOf(pieces.found) + sizeOf(pieces.pieces);
+}
+
 StrokePrograms::StrokePrograms(const Scene& scene, SceneLook look, bool holes) : look_(look) {
     for (const std::vector<StrokeRange>* ranges : {&scene.pointRanges, &scene.lineRanges}) {
         for (const StrokeRange& range : *ranges) {

@@ -30,6 +30,7 @@ struct StrokePieces {
 };
 
 StrokePieces uploadStrokePieces(const PieceMesh& mesh);
+size_t memoryBytesOf(const StrokePieces& pieces);
 
 // The variants of stroke.vert and stroke.frag that a look needs.
 class StrokePrograms {

@@ -1,5 +1,6 @@
 #include "renderer/vertex_warp.h"
 
+#include "calibration/errors.h"
 #include "renderer/blended_triangles.h"
 #include "renderer/holes.h"
 #include "renderer/pair_drawing.h"
@@ -101,6 +102,10 @@ void VertexWarpRenderer::recordBlended(const SceneView& view) {
 FrameOutcome VertexWarpRenderer::finishFrame() {
     FrameOutcome outcome = parts_.opaque.finishFrame();
     if (parts_.blended) outcome += parts_.blended->finishFrame();
+    if (outcome.refusal) {
+        timer_.take();  // nothing of this frame counts
+        throw UsageError(outcome.refusal);
+    }
     return outcome;
 }
 

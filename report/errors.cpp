@@ -85,6 +85,7 @@ MethodErrors errorsOf(const DrawnOutputs& drawn, const Truth& truth, const Displ
         }
     const std::vector<int32_t> owners(errorsPx.size(), 0);
     errors.geometric = certificateOf(errorsPx, owners, drawn.position.sizePx);
+    errors.geometric.holes -= static_cast<int>(errors.misplacedPixels);
     const bool knowsMany = !truth.supersampled.texels.empty();
     errors.image =
         compareColor(drawn.color, knowsMany && drawn.stats.samples > 1 ? truth.supersampled : truth.color);

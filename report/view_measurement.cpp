@@ -59,7 +59,13 @@ RoomCoverage coverageOfRoom(Renderer& renderer, RenderRequest request, const Dis
     request.output = OutputKind::coverage;
     request.samples = request.frames = 1;
     request.timesStages = false;
-    const Frame counts = renderer.render(request).frame;
+    const Frame counts = [&] {
+        try {
+            return renderer.render(request).frame;
+        } catch (const UsageError& refused) {
+            throw UsageError(std::string("the closed room that coverage is counted in: ") + refused.what());
+        }
+    }();
     RoomCoverage coverage;
     for (int y = 0; y < counts.sizePx.y; ++y)
         for (int x = 0; x < counts.sizePx.x; ++x) {

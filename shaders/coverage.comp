@@ -23,7 +23,7 @@ layout(std430, binding = 7) buffer Found { uvec4 found[]; };            // KEPT 
 layout(std430, binding = 10) readonly buffer Seen { uint seen[]; };     // meshlets that show something
 
 #if defined(WARP) && defined(COUNT)
-layout(std430, binding = 13) writeonly buffer Totals { uint totals[]; };  // of each part, as renderer/coverage.h has them
+layout(std430, binding = 13) buffer Totals { uint totals[]; };  // of each part, as renderer/coverage.h has them
 layout(location = 7) uniform uint part;
 #endif
 
@@ -71,7 +71,7 @@ void main() {
     uint counted = isTriangle ? count(m.firstTriangle + self, m.isSingleSided != 0u, meshletNodes[index]) : 0u;
     found[slot] = uvec4(kept, counted);
 #ifdef WARP
-    if (refusal != 0u) totals[3u * part + 2u] = refusal;  // of all one is enough
+    if (refusal != 0u) atomicMax(totals[3u * part + 2u], refusal);
 #endif
     uint pairCount = counted & ~SEEN_FROM_BEHIND;
     uint before = groupPrefix(pairCount);

@@ -110,7 +110,7 @@ ivec2 turnsWithin(float least, float most, float extentPx, float turnPx) {
     return ivec2(begin, clamp(end - begin, 0, TURN_BIAS - begin));
 }
 
-// Why walk() has not all of a triangle's parts; renderer/coverage.cpp says so.
+// Why walk() has not all of a triangle's parts; renderer/coverage.cpp says so. Of several reasons the largest counts.
 const uint TOO_MANY_PARTS = 1u, TOO_COARSE_PARTS = 2u;
 uint refusal = 0u;
 void take(uint piece, uint nth);  // what the includer does with the nth part
@@ -148,7 +148,8 @@ bool hasMiddle(uvec2 weightsA, uvec2 weightsB, vec3 a, vec3 b, float finest) {
 bool isOffPlane(RayTriangle t) {
     vec3 ab = t.b - t.a, ac = t.c - t.a;
     float roundings = ldexp(dot(abs(t.a), abs(ab.yzx * ac.zxy) + abs(ab.zxy * ac.yzx)), -22);
-    return abs(t.facing) > max(roundings, finish.z / finish.x * length(cross(ab, ac)));
+    vec3 normal = abs(cross(ab, ac));  // whose length might be more than single precision has
+    return abs(t.facing) > max(roundings, finish.z / finish.x * max(normal.x, max(normal.y, normal.z)));
 }
 
 // How much the display shows between where a point lands and where its side of a direction that positions jump at does.
@@ -238,7 +239,7 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
             if (isDrawn) {
                 turns = turnsOf(box);
             } else if (gapPx(p, box, isWide) > MOST_GAP_PX && isOffPlane(t)) {
-                refusal = TOO_COARSE_PARTS;
+                refusal = max(refusal, largest == 0.0 ? TOO_COARSE_PARTS : TOO_MANY_PARTS);
             }
             continue;
         }
@@ -250,6 +251,6 @@ uint walk(RayTriangle t, uint begin, uint end, uint most) {
         open[openCount++] = first;
         open[openCount++] = second;
     }
-    if ((openCount > 0 || turns.y > 0) && count < most) refusal = TOO_MANY_PARTS;
+    if ((openCount > 0 || turns.y > 0) && count < most) refusal = max(refusal, TOO_MANY_PARTS);
     return count;
 }

@@ -94,8 +94,7 @@ RenderResult BoundedRaycastMethod::render(const RenderRequest& request, const Di
     };
     measureFrames(request, {draw, readFirst, [&] { return renderer.takeStageTimes(); }}, stats);
     describe(*scene, renderer.programs(), stats);
-    stats.gpuMemoryMib.display = mebibytes(sizeOf(rays->texture()));
-    stats.gpuMemoryMib.pictures = mebibytes(target.memoryBytes() + blended.memoryBytes());
+    describeMemory(sizeOf(rays->texture()), target.memoryBytes(), blended, stats);
     stats.method = nameOf(request.method);
     stats.engine = stats.bounds = nameOf(request.bounds);
     if (request.measuresError) {

@@ -52,9 +52,8 @@ RenderResult ImageBasedMethod::render(const RenderRequest& request, const Displa
     };
     measureFrames(request, {draw, readFirst, [&] { return renderer->takeStageTimes(); }}, stats);
     describe(*scene, renderer->programs(), stats);
-    stats.gpuMemoryMib.display = mebibytes(memoryBytesOf(source->gpu));
-    stats.gpuMemoryMib.pictures =
-        mebibytes(pictures->memoryBytes() + target.memoryBytes() + blended.memoryBytes());
+    describeMemory(memoryBytesOf(source->gpu), pictures->memoryBytes() + target.memoryBytes(), blended,
+                   stats);
     stats.method = "image-based";
     stats.engine = nameOf(request.source);
     stats.source = nameOf(request.source);

@@ -40,6 +40,11 @@ double millisecondsSince(std::chrono::steady_clock::time_point time) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - time).count();
 }
 
+size_t memoryBytesOf(const PreparedPieces& prepared) {
+    const size_t bytes = memoryBytesOf(prepared.gpu) + memoryBytesOf(*prepared.owners);
+    return prepared.forStrokes ? bytes + memoryBytesOf(*prepared.forStrokes) : bytes;
+}
+
 std::shared_ptr<PreparedDraw> makeDraw(const RenderRequest& request, PreparedScene& scene,
                                        PreparedPieces& prepared, const SampledTarget& target,
                                        const std::shared_ptr<const GpuOwners>& sampled) {
@@ -132,9 +137,8 @@ RenderResult PiecewiseMethod::render(const RenderRequest& request, const Display
     describe(*scene, drawn->renderer.programs(), stats);
     if (prepared->gpu.pieceCount > 1)
         stats.gpuMemoryMib.pairs = mebibytes(memoryBytesOf(scene->replicatorsFor(request.engine)));
-    stats.gpuMemoryMib.display = mebibytes(memoryBytesOf(prepared->gpu) + memoryBytesOf(*prepared->owners) +
-                                           (drawn->sampleOwners ? memoryBytesOf(*drawn->sampleOwners) : 0));
-    stats.gpuMemoryMib.pictures = mebibytes(target.memoryBytes() + blended.memoryBytes());
+    describeMemory(memoryBytesOf(*prepared) + (drawn->sampleOwners ? memoryBytesOf(*drawn->sampleOwners) : 0),
+                   target.memoryBytes(), blended, stats);
     stats.method = "piecewise";
     stats.engine = prepared->gpu.pieceCount > 1 ? nameOf(request.engine) : "plain";
     stats.tolerancePx = request.tolerancePx;

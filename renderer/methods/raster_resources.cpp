@@ -71,6 +71,12 @@ void describe(const PreparedScene& scene, const ScenePrograms& programs, RenderS
     stats.gpuMemoryMib.scene = mebibytes(memoryBytesOf(scene.gpu));
 }
 
+void describeMemory(size_t displayBytes, size_t pictureBytes, const BlendedTarget& blended,
+                    RenderStats& stats) {
+    stats.gpuMemoryMib.display = mebibytes(displayBytes + blended.mapBytes());
+    stats.gpuMemoryMib.pictures = mebibytes(pictureBytes + blended.memoryBytes());
+}
+
 GeometricError errorOf(const Certificate& certificate) {
     return {certificate.maxPx, certificate.p99Px, certificate.meanPx};
 }

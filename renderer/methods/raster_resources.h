@@ -75,6 +75,9 @@ FrameOutcome drawUntilItFits(FrameRenderer& renderer, const Record& record) {
 
 // What the statistics of every raster method tell.
 void describe(const PreparedScene& scene, const ScenePrograms& programs, RenderStats& stats);
+// Its memory: what the display is drawn by without blend maps, and what is drawn into before it is blended.
+void describeMemory(size_t displayBytes, size_t pictureBytes, const BlendedTarget& blended,
+                    RenderStats& stats);
 GeometricError errorOf(const Certificate& certificate);
 double mebibytes(size_t bytes);
 

@@ -83,8 +83,8 @@ RenderResult VertexWarpMethod::render(const RenderRequest& request, const Displa
     measureFrames(request, {draw, readFirst, [&] { return renderer.takeStageTimes(); }}, stats);
     describe(*scene, renderer.programs(), stats);
     stats.gpuMemoryMib.pairs = mebibytes(drawn->parts->memoryBytes());
-    stats.gpuMemoryMib.display = mebibytes(sizeOf(warp->map->table) + memoryBytesOf(*warp->owners));
-    stats.gpuMemoryMib.pictures = mebibytes(target.memoryBytes() + blended.memoryBytes());
+    describeMemory(sizeOf(warp->map->table) + memoryBytesOf(*warp->owners), target.memoryBytes(), blended,
+                   stats);
     stats.method = "vertex-warp";
     stats.engine = warp->tessellates ? "tessellation" : "vertex";
     stats.tessellationPx = request.tessellationPx;

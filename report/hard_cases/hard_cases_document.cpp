@@ -279,7 +279,8 @@ Document hardCasesDocument(const std::vector<FamilyResult>& results) {
         blocks.emplace_back(Heading{2, "Known limits"});
         blocks.emplace_back(Paragraph{
             "From which value of its family on a method breaks, and how badly at most, on displays of 100 px "
-            "and of 512 px. The tests hold these bounds, which are a fifth above what was measured."});
+            "and of 512 px. Bounds are a fifth above what was measured; the tests hold them at 96 px, and at "
+            "512 px for what only large displays show. Pixels at fault are those with the commonest fault."});
         blocks.emplace_back(limitTable());
     }
     for (const Told& told : all) tellFamily(told, blocks);

@@ -5,6 +5,7 @@
 namespace curvewall {
 
 const std::vector<KnownLimit>& knownLimits() {
+    // Of a family those of any method come last: the first that fits explains.
     static const std::vector<KnownLimit> limits{
         {"pole crossing", "vertex-warp", 0.1, 9.5, 1.3, 0.0063,
          "Beside a pole a part of a triangle spans a wide range of azimuths, and its straight edges sweep "
@@ -88,7 +89,7 @@ const KnownLimit* knownLimitOf(const HardCaseFamily& family, const CaseResult& r
     const auto placeOf = [&](double value) {
         return std::ranges::find(family.values, value) - family.values.begin();
     };
-    if (result.outcome != Outcome::drawn) return nullptr;
+    if (result.outcome != Outcome::drawn || result.errors.nanTexels > 0) return nullptr;
     const auto found = std::ranges::find_if(knownLimits(), [&](const KnownLimit& limit) {
         return limit.family == family.name && result.method.starts_with(limit.methods) &&
                placeOf(limit.from) <= placeOf(result.value) && result.errors.geometric.maxPx <= limit.maxPx &&

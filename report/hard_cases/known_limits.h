@@ -15,7 +15,7 @@ struct KnownLimit {
     std::string methods;  // how their names begin
     double from = 0;      // the first of the family's values that breaks, on displays of 100 px or of 512
     // From there on, on either: how far what a pixel shows is off at most, how far what 99 pixels in 100
-    // show, and the share of all pixels that are open, wrong, misplaced or show too much.
+    // show, and the share of pixels that have the commonest fault: open, wrong, misplaced, or too much.
     double maxPx = 0, p99Px = 0, faultyShare = 0;
     std::string why;
     bool isSeenSmall = true;  // on displays of 100 px too

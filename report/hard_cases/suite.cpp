@@ -95,7 +95,8 @@ public:
         if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
     }
 
-    void runCase(double value) {
+    // Whether the wall is one that anything is drawn on.
+    bool runCase(double value) {
         try {
             const HardCase tried = family_.make(value, options_.sizePx);
             const JudgedTruth judged = truthOf(renderer_, tried);
@@ -103,11 +104,13 @@ public:
             result_.truths.push_back({value, "", checkTruth(position, tried), judged.errors.geometric.maxPx});
             if (isPictured(value)) addPicture("reference", value, judged.truth.color);
             for (const HardCaseMethod& method : methods_) draw(value, method, tried, judged);
+            return true;
         } catch (const UsageError& refusal) {
             addRefusal(value, refusal.what());
         } catch (const InputError& refusal) {
             addRefusal(value, refusal.what());
         }
+        return false;
     }
 
     FamilyResult take() { return std::move(result_); }
@@ -187,6 +190,10 @@ public:
         }
     }
 
+    void forget(const HardCaseFamily& family) const {
+        if (!options_.folder.empty()) std::filesystem::remove(inFolder(fileOf(family)));
+    }
+
     void keep(const HardCaseFamily& family, const FamilyResult& result) const {
         if (!options_.folder.empty())
             keepJson(inFolder(fileOf(family)), {{"key", keyOf(family)}, {"result", toJson(result)}});
@@ -236,6 +243,7 @@ std::vector<FamilyResult> runFamilies(const std::vector<HardCaseFamily>& familie
         if (!results.back()) clock.expect(family.values.size());
     }
     const auto run = [&](const HardCaseFamily& family) {
+        kept.forget(family);  // whose pictures are overwritten
         // It keeps what belongs to scenes and displays, and each case has others.
         Renderer renderer(1);
         FamilyRun cases(renderer, family, options);
@@ -244,8 +252,10 @@ std::vector<FamilyResult> runFamilies(const std::vector<HardCaseFamily>& familie
             progress.doing = family.name;
             onProgress(progress);
             const Stopwatch watch;
-            cases.runCase(value);
-            clock.took(watch.ms());
+            if (cases.runCase(value))
+                clock.took(watch.ms());
+            else
+                clock.skipped();
             ++progress.done;
         }
         FamilyResult result = cases.take();

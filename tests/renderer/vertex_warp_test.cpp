@@ -395,7 +395,8 @@ TEST_F(VertexWarp, RefusesToLeaveOpenWhatNeedsFinerPartsThanThereAre) {
             EXPECT_THAT(error.what(), testing::HasSubstr("would stay open"));
         }
     };
-    expectRefusal(warpRequest(test::smallShippedWall("equirectangular", 4), groundTo(1e6f)));
+    for (const float reachM : {1e6f, 1e10f})
+        expectRefusal(warpRequest(test::smallShippedWall("equirectangular", 4), groundTo(reachM)));
     const test::LensKind lens{"Stereographic", {RadialModel::stereographic}, 359.9999};
     expectRefusal(warpRequest(test::lensWall(lens, kSizePx), boxRoom({8, 5, 8})));
     EXPECT_LE(disagreements(warpRequest(test::fullCylinderWall(kSizePx), groundTo(1e6f))), 30);

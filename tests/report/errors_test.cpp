@@ -87,6 +87,7 @@ TEST_F(ErrorsOf, PointsThatTheDisplayDoesNotSeeAreCountedApart) {
     }
     const MethodErrors found = errors();
     EXPECT_EQ(found.misplacedPixels, 1u);
+    EXPECT_EQ(found.geometric.holes, 0);
     EXPECT_LT(found.geometric.maxPx, 1e-3);
 }
 

@@ -1,6 +1,7 @@
 #include "calibration/readers/wall_reader.h"
 #include "renderer/scene/scene_building.h"
 #include "report/hard_cases/hard_cases_document.h"
+#include "report/hard_cases/known_limits.h"
 #include "report/hard_cases/results.h"
 #include "report/hard_cases/suite.h"
 #include "report/hard_cases/truth_check.h"
@@ -13,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -138,6 +140,34 @@ TEST(HardCasesDocument, SaysWhereMethodsBreak) {
         const auto* const table = std::get_if<Table>(&block);
         if (!table) continue;
         for (const std::vector<std::string>& row : table->rows) EXPECT_EQ(row.size(), table->columns.size());
+    }
+}
+
+TEST(KnownLimits, ExplainWhatIsNoWorseThanTheyAre) {
+    const std::vector<HardCaseFamily> families = hardCaseFamilies();
+    for (const KnownLimit& limit : knownLimits()) {
+        if (limit.methods.empty()) continue;  // others may explain it, too
+        const HardCaseFamily& family = *std::ranges::find(families, limit.family, &HardCaseFamily::name);
+        CaseResult worst{limit.from, limit.methods};
+        worst.errors.geometric.maxPx = limit.maxPx;
+        worst.errors.geometric.p99Px = limit.p99Px;
+        worst.displayPixels = 1'000'000;
+        worst.wrongPixels = static_cast<uint64_t>(limit.faultyShare * 1e6);
+        EXPECT_EQ(knownLimitOf(family, worst), &limit) << limit.family;
+
+        const auto explains = [&](auto makeWorse) {
+            CaseResult result = worst;
+            makeWorse(result);
+            return knownLimitOf(family, result) == &limit;
+        };
+        EXPECT_FALSE(explains([](CaseResult& r) { r.errors.geometric.maxPx *= 1.01; })) << limit.family;
+        EXPECT_FALSE(explains([](CaseResult& r) { r.errors.geometric.p99Px *= 1.01; })) << limit.family;
+        EXPECT_FALSE(explains([](CaseResult& r) { r.gapPixels = r.wrongPixels + 10; })) << limit.family;
+        EXPECT_FALSE(explains([](CaseResult& r) { r.errors.nanTexels = 1; })) << limit.family;
+        EXPECT_FALSE(explains([](CaseResult& r) { r.outcome = Outcome::failed; })) << limit.family;
+        const auto place = std::ranges::find(family.values, limit.from);
+        if (place == family.values.begin()) continue;
+        EXPECT_FALSE(explains([&](CaseResult& r) { r.value = *(place - 1); })) << limit.family;
     }
 }
 

@@ -71,7 +71,8 @@ class LargeHardCases : public test::GlTest, public testing::WithParamInterface<K
 
 TEST_P(LargeHardCases, BreakNoWorseThanTheLimit) {
     const KnownLimit& limit = *std::ranges::find_if(knownLimits(), [](const KnownLimit& known) {
-        return known.family == GetParam().family && known.methods == GetParam().methods;
+        return known.family == GetParam().family && known.methods == GetParam().methods &&
+               known.from == GetParam().from;
     });
     const std::vector<HardCaseFamily> families = hardCaseFamilies();
     const HardCaseFamily& family = *std::ranges::find(families, limit.family, &HardCaseFamily::name);
