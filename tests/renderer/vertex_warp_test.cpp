@@ -402,6 +402,24 @@ TEST_F(VertexWarp, RefusesToLeaveOpenWhatNeedsFinerPartsThanThereAre) {
     EXPECT_LE(disagreements(warpRequest(test::fullCylinderWall(kSizePx), groundTo(1e6f))), 30);
 }
 
+// What is opaque and what blends are divided apart, and both are refused.
+TEST_F(VertexWarp, AFrameThatIsRefusedLeavesNothingBehindForTheNext) {
+    constexpr float kReachM = 1e6f;
+    Scene ground = groundTo(kReachM);
+    Material glass = plainMaterial(glm::vec3(0.5f));
+    glass.blending = Blending::alpha;
+    glass.baseColor.a = 0.5f;
+    startMaterial(ground, glass);
+    addQuad(ground, {glm::vec3(-kReachM, -1.6, kReachM), glm::vec3(kReachM, -1.6, kReachM),
+                     glm::vec3(kReachM, -1.6, -kReachM), glm::vec3(-kReachM, -1.6, -kReachM)});
+    const RenderRequest near = warpRequest(test::smallShippedWall("equirectangular", 4), ground);
+    RenderRequest fromAbove = near;
+    fromAbove.camera.positionM.y = kReachM;
+    const Frame expected = Renderer().render(fromAbove).frame;
+    EXPECT_THROW(frameOf(near), UsageError);
+    EXPECT_EQ(frameOf(fromAbove).texels, expected.texels);
+}
+
 TEST_F(VertexWarp, WhatLiesBehindTheEyeIsNotShown) {
     Scene behind;
     startMaterial(behind, plainMaterial(glm::vec3(1)));
