@@ -1,10 +1,22 @@
 #include "renderer/gl/gl_objects.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
 namespace curvewall {
+namespace {
+
+// Whose bits a texel or pixel is made of.
+constexpr std::array<GLenum, 5> kTextureChannels{GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE,
+                                                 GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,
+                                                 GL_TEXTURE_DEPTH_SIZE};
+constexpr std::array<GLenum, 5> kBufferChannels{GL_RENDERBUFFER_RED_SIZE, GL_RENDERBUFFER_GREEN_SIZE,
+                                                GL_RENDERBUFFER_BLUE_SIZE, GL_RENDERBUFFER_ALPHA_SIZE,
+                                                GL_RENDERBUFFER_DEPTH_SIZE};
+
+}  // namespace
 
 GlBuffer makeBuffer(const void* bytes, size_t size, GLbitfield flags) {
     GLuint id = 0;
@@ -77,9 +89,7 @@ size_t sizeOf(const GlTexture& texture) {
             return static_cast<size_t>(value);
         };
         size_t bitsATexel = 0;
-        for (const GLenum channel : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE,
-                                     GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE})
-            bitsATexel += number(channel);
+        for (const GLenum channel : kTextureChannels) bitsATexel += number(channel);
         bits += bitsATexel * number(GL_TEXTURE_WIDTH) * number(GL_TEXTURE_HEIGHT) * number(GL_TEXTURE_DEPTH) *
                 std::max<size_t>(number(GL_TEXTURE_SAMPLES), 1);
     }
@@ -94,10 +104,7 @@ size_t sizeOf(const GlRenderbuffer& buffer) {
         return static_cast<size_t>(value);
     };
     size_t bitsAPixel = 0;
-    for (const GLenum channel :
-         {GL_RENDERBUFFER_RED_SIZE, GL_RENDERBUFFER_GREEN_SIZE, GL_RENDERBUFFER_BLUE_SIZE,
-          GL_RENDERBUFFER_ALPHA_SIZE, GL_RENDERBUFFER_DEPTH_SIZE})
-        bitsAPixel += number(channel);
+    for (const GLenum channel : kBufferChannels) bitsAPixel += number(channel);
     return bitsAPixel * number(GL_RENDERBUFFER_WIDTH) * number(GL_RENDERBUFFER_HEIGHT) *
            std::max<size_t>(number(GL_RENDERBUFFER_SAMPLES), 1) / 8;
 }
